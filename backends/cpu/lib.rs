@@ -1,0 +1,1 @@
+//! Runs a plan with the passes' CPU functions: reference and fallback.

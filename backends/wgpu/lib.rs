@@ -1,0 +1,1 @@
+//! Records a plan's GPU recipes into a host's wgpu encoder.

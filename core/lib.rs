@@ -1,0 +1,21 @@
+//! The nouns of shadowgraph. No GPU API, no files, no text format, no clocks.
+//!
+//! A **stage** ([`stage::Stage`]) is a signature: typed ports. A **pass** ([`pass::Pass`]) implements a stage with a CPU
+//! function, a GPU recipe, or both. A **plan** ([`plan::Plan`]) is all that a backend ever sees. Every value that travels
+//! between nodes is an [`array::Array`]: a shape and 32-bit words, the same bits on both backends.
+#![forbid(unsafe_code)]
+
+pub mod array;
+pub mod cpu;
+pub mod facts;
+pub mod input;
+pub mod param;
+pub mod pass;
+pub mod plan;
+pub mod port;
+pub mod problem;
+pub mod record;
+pub mod scene;
+pub mod shared;
+pub mod size;
+pub mod stage;

@@ -1,0 +1,1 @@
+//! The shadowgraph program: render, verify, check, graph, passes.

@@ -1,0 +1,1 @@
+//! Scenes as plain data: glTF 2.0 files, views files, procedural scenes.

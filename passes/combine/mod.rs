@@ -1,0 +1,16 @@
+//! Stage `combine`: Mask to visible fraction (Sintorn 2008, sections 3 and 4.2).
+
+use crate::ports;
+use shadowgraph_core::input;
+use shadowgraph_core::pass::Pass;
+use shadowgraph_core::stage::Stage;
+
+/// The signature.
+pub static STAGE: Stage = Stage {
+    name: "combine",
+    doc: "Mask to visible fraction (Sintorn 2008, sections 3 and 4.2).",
+    ports: &[ports::MASK.read(), ports::SAMPLE_STATE.read(), input::LIGHT_SAMPLES.read(), ports::VISIBLE],
+};
+
+/// Its passes; the first is the one used when a graph names none.
+pub const PASSES: &[&Pass] = &[];

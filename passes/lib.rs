@@ -1,0 +1,49 @@
+//! Every stage of the shadow papers as a swappable pass. This file is the catalogue; the code is in the stages' folders.
+//!
+//! A stage is a folder with its signature in `mod.rs`; a pass is a folder inside it. Values that travel between stages are
+//! the constants of [`ports`]; code and WGSL that several passes need is in [`shared`]. No pass imports another's folder.
+
+pub mod ports;
+pub mod shared;
+
+pub mod bent_light;
+pub mod caster_fill;
+pub mod casters;
+pub mod combine;
+pub mod conservative_raster;
+pub mod light_depth;
+pub mod light_frame;
+pub mod list_build;
+pub mod list_fill;
+pub mod present;
+pub mod sample_filter;
+pub mod scan;
+pub mod shade;
+pub mod shadow_lookup;
+pub mod view_samples;
+pub mod visibility;
+
+use shadowgraph_core::pass::Catalogue;
+
+/// All passes of this crate, stage by stage in the order of a frame.
+pub fn catalogue() -> Catalogue {
+    let stages: [&[&'static shadowgraph_core::pass::Pass]; 16] = [
+        view_samples::PASSES,
+        sample_filter::PASSES,
+        light_frame::PASSES,
+        list_build::PASSES,
+        scan::PASSES,
+        list_fill::PASSES,
+        casters::PASSES,
+        conservative_raster::PASSES,
+        caster_fill::PASSES,
+        visibility::PASSES,
+        light_depth::PASSES,
+        shadow_lookup::PASSES,
+        combine::PASSES,
+        bent_light::PASSES,
+        shade::PASSES,
+        present::PASSES,
+    ];
+    Catalogue::new(stages.into_iter().flatten().copied())
+}

@@ -1,0 +1,1 @@
+//! Code and WGSL pieces that several passes are made of.

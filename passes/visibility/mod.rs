@@ -1,0 +1,32 @@
+//! Stage `visibility`: Which light samples each view-sample cannot see (Sintorn 2008, sections 3.3 and 4.2).
+
+use crate::ports;
+use shadowgraph_core::input;
+use shadowgraph_core::pass::Pass;
+use shadowgraph_core::stage::Stage;
+
+/// The signature.
+pub static STAGE: Stage = Stage {
+    name: "visibility",
+    doc: "Which light samples each view-sample cannot see (Sintorn 2008, sections 3.3 and 4.2).",
+    ports: &[
+        input::TRIANGLES.read(),
+        ports::CASTER_STATE.read(),
+        input::LIGHT_SAMPLES.read(),
+        ports::LIGHT_FRAME.read(),
+        ports::POSITION.read(),
+        ports::TRIANGLE.read(),
+        ports::SAMPLE_STATE.read(),
+        ports::CELL.read(),
+        ports::LIST_LENGTH.read(),
+        ports::LIST_FAR.read(),
+        ports::OFFSET.read().named("list_offset"),
+        ports::LIST_ENTRIES.read(),
+        ports::OFFSET.read().named("caster_offset"),
+        ports::CASTER_ENTRIES.read(),
+        ports::MASK,
+    ],
+};
+
+/// Its passes; the first is the one used when a graph names none.
+pub const PASSES: &[&Pass] = &[];

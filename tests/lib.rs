@@ -1,0 +1,1 @@
+//! The suite lives in `main.rs`; this library target is empty.
