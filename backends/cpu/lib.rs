@@ -21,6 +21,9 @@ use std::time::Instant;
 /// Told the node's id, how much of it is done and how much there is; may be called from any thread.
 pub type Progress<'a> = dyn Fn(&str, u64, u64) + Sync + 'a;
 
+/// Output arrays by port name, and counts in the order of the pass's counters.
+pub type Outputs = (Vec<(&'static str, Array)>, Vec<u64>);
+
 /// What one node did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeRun {
@@ -74,7 +77,7 @@ pub fn run_node(
     params: &Params,
     image: [usize; 2],
     inputs: &[(&'static str, Array)],
-) -> Result<(Vec<(&'static str, Array)>, Vec<u64>), Problem> {
+) -> Result<Outputs, Problem> {
     let inputs = inputs.iter().map(|(port, array)| (*port, array)).collect();
     call(pass, params, image, inputs, &|_, _| {})
 }
@@ -85,7 +88,7 @@ fn call(
     image: [usize; 2],
     inputs: Vec<(&'static str, &Array)>,
     progress: &(dyn Fn(u64, u64) + Sync),
-) -> Result<(Vec<(&'static str, Array)>, Vec<u64>), Problem> {
+) -> Result<Outputs, Problem> {
     let Some(function) = pass.cpu else {
         return Err(Problem::new(Kind::Unsupported, format!("pass {pass:?} does not run on the CPU"))
             .remedy("set `on: Wgpu` for it, or choose another pass of the stage"));
