@@ -1,1 +1,4 @@
 //! Code and WGSL pieces that several passes are made of.
+
+pub mod camera;
+pub mod light_frame;

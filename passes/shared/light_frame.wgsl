@@ -1,0 +1,91 @@
+// Projection onto the light frame; the same operations in the same order as light_frame.rs.
+// The kernel that joins this piece declares `var<storage, read> light_frame: array<f32>` (read_write serves too).
+
+struct LightPoint {
+    face: u32,
+    u: f32,
+    v: f32,
+    // Along the face's axis; not above zero: the point cannot be placed.
+    depth: f32,
+}
+
+fn light_vector(face: u32, word: u32) -> vec3<f32> {
+    let start = face * FACE_WORDS + word;
+    return vec3<f32>(light_frame[start], light_frame[start + 1u], light_frame[start + 2u]);
+}
+
+fn light_origin(face: u32) -> vec3<f32> {
+    return light_vector(face, 0u);
+}
+
+// Whether any kept view-sample falls in the face.
+fn light_valid(face: u32) -> bool {
+    return light_frame[face * FACE_WORDS + 3u] > 0.5;
+}
+
+fn light_axis_x(face: u32) -> vec3<f32> {
+    return light_vector(face, 4u);
+}
+
+fn light_axis_y(face: u32) -> vec3<f32> {
+    return light_vector(face, 8u);
+}
+
+fn light_axis_z(face: u32) -> vec3<f32> {
+    return light_vector(face, 12u);
+}
+
+// Window u0, v0, du, dv.
+fn light_window(face: u32) -> vec4<f32> {
+    let start = face * FACE_WORDS;
+    return vec4<f32>(
+        light_frame[start + 7u], light_frame[start + 11u], light_frame[start + 15u], light_frame[start + 16u]);
+}
+
+// Smallest and largest depth of the face's view-samples.
+fn light_depth_range(face: u32) -> vec2<f32> {
+    let start = face * FACE_WORDS;
+    return vec2<f32>(light_frame[start + 17u], light_frame[start + 18u]);
+}
+
+fn light_dot(a: vec3<f32>, b: vec3<f32>) -> f32 {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// The face whose axis the point lies furthest along, and its coordinates there.
+fn light_project(position: vec3<f32>, face_count: u32) -> LightPoint {
+    var best = LightPoint(0u, 0.0, 0.0, 0.0);
+    for (var face = 0u; face < face_count; face++) {
+        let depth = light_dot(light_axis_z(face), position - light_origin(face));
+        if depth > best.depth {
+            best.face = face;
+            best.depth = depth;
+        }
+    }
+    if best.depth > 0.0 {
+        let offset = position - light_origin(best.face);
+        best.u = light_dot(light_axis_x(best.face), offset) / best.depth;
+        best.v = light_dot(light_axis_y(best.face), offset) / best.depth;
+    }
+    return best;
+}
+
+// Column and row of (u, v) in a window of side x side texels, clamped: border texels reach to infinity.
+fn light_texel(face: u32, u: f32, v: f32, side: u32) -> vec2<u32> {
+    let window = light_window(face);
+    let last = f32(side) - 1.0;
+    let column = clamp(floor((u - window.x) / window.z * f32(side)), 0.0, last);
+    let row = clamp(floor((v - window.y) / window.w * f32(side)), 0.0, last);
+    return vec2<u32>(u32(column), u32(row));
+}
+
+// Cell of a placed point.
+fn light_cell(point: LightPoint, side: u32) -> u32 {
+    let texel = light_texel(point.face, point.u, point.v, side);
+    return (point.face * side + texel.y) * side + texel.x;
+}
+
+// How far rounding may have moved a projected point in u and in v, see `uv_pad` in light_frame.rs.
+fn light_uv_pad(u: f32, v: f32) -> f32 {
+    return 1e-6 * (1.0 + u * u + v * v);
+}
