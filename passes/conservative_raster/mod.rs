@@ -1,5 +1,7 @@
 //! Stage `conservative_raster`: Every non-empty light texel touched by a caster, however little, gets a pair (Sintorn 2008, section 3.2).
 
+pub mod binning;
+
 use crate::ports;
 use shadowgraph_core::input;
 use shadowgraph_core::pass::Pass;
@@ -24,4 +26,4 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[];
+pub const PASSES: &[&Pass] = &[&binning::PASS];

@@ -2,3 +2,4 @@
 
 pub mod camera;
 pub mod light_frame;
+pub mod predicate;

@@ -1,5 +1,8 @@
 //! Stage `visibility`: Which light samples each view-sample cannot see (Sintorn 2008, sections 3.3 and 4.2).
 
+pub mod fused;
+pub mod planes;
+
 use crate::ports;
 use shadowgraph_core::input;
 use shadowgraph_core::pass::Pass;
@@ -29,4 +32,4 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[];
+pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS];

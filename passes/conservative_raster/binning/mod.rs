@@ -1,0 +1,49 @@
+//! `binning`: each caster's footprint on the light's image, cell by cell, into pairs.
+//!
+//! Sintorn, Eisemann, Assarsson 2008, section 3.2 (every texel touched, however little), in compute instead of a draw; Aila,
+//! Laine 2004, section 5.1 (a cell all of whose view-samples are nearer to the light than the caster is skipped).
+//!
+//! In: `triangles [T 3 3]` world, `caster_state [T]`, `light_samples [1 3]` world, `light_frame [F 20]`,
+//! `list_length [F S S]`, `list_far [F S S]` scene units along the face's axis.
+//! Out: `pair_cell`, `pair_slot`, `pair_caster` `[E]`, `caster_length [F S S]`.
+//!
+//! A caster covers direction (u, v, 1) of a face when three linear functions of (u, v) share a sign
+//! ([`crate::shared::footprint`]); a cell is paired unless one of them is negative on all of its padded square. Superset: rounding
+//! only adds pairs. After it, `caster_length` sums to the number of pairs, and the slots of a cell's pairs are 0, 1, 2, ...
+//! without gaps, in unspecified order. Cells without view-samples get no pairs.
+
+use super::STAGE;
+use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
+use shadowgraph_core::size::SizeCx;
+
+/// The pass.
+pub static PASS: Pass = Pass {
+    name: "binning",
+    stage: &STAGE,
+    doc: "Walks the texels under each caster's exact footprint.",
+    source: "Sintorn 2008, section 3.2; Aila, Laine 2004, section 5.1",
+    ignores: &[],
+    params: &[],
+    counters: &[
+        Counter { name: "pairs", doc: "(cell, caster) pairs", kind: CounterKind::Rows("pair_cell") },
+        Counter {
+            name: "pairs_behind",
+            doc: "pairs left out because every view-sample of the cell is nearer than the caster",
+            kind: CounterKind::Info,
+        },
+    ],
+    contract: Contract::Superset,
+    features: &[],
+    size,
+    cpu: None,
+    gpu: None,
+};
+
+/// Pairs that fit where nothing is known yet, for kernels that cannot grow their outputs: a few cells a small caster, and
+/// four layers of casters over every cell. The CPU function allocates what it needs.
+fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
+    let cells: Vec<usize> = (0..3).map(|axis| cx.dim("list_length", axis)).collect();
+    let first = 8 * cx.dim("triangles", 0) + 4 * cells.iter().product::<usize>();
+    let pairs = vec![cx.capacity("pair_cell", first)];
+    vec![("pair_cell", pairs.clone()), ("pair_slot", pairs.clone()), ("pair_caster", pairs), ("caster_length", cells)]
+}

@@ -1,0 +1,39 @@
+//! `fused`: each caster walks the cells under its footprint and tests their view-samples there and then.
+//!
+//! Sintorn, Eisemann, Assarsson 2008, sections 3.2 and 3.3 in one step, as the paper's own fragment program does; no caster table
+//! is made. Aila, Laine 2004, section 5.1: cells wholly nearer than the caster, and cells wholly in shadow, are skipped.
+//!
+//! In: `triangles [T 3 3]` world, `caster_state [T]`, `light_samples [1 3]` world, `light_frame [F 20]`, `position [P 3]` world,
+//! `triangle [P]`, `sample_state [P]`, and the lists of view-samples by cell.
+//! Out: `mask [P 1]`, bit 0 set = blocked; all bits set for a view-sample facing away, none for background.
+//!
+//! On the CPU the mask equals [`crate::shared::predicate::blocks`] bit for bit, as that of `planes` does. Takes one light
+//! sample; more is an error.
+
+use super::STAGE;
+use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
+use shadowgraph_core::size::SizeCx;
+
+/// The pass.
+pub static PASS: Pass = Pass {
+    name: "fused",
+    stage: &STAGE,
+    doc: "Tests the view-samples of every cell under each caster's footprint at once, without a caster table.",
+    source: "Sintorn 2008, sections 3.2 and 3.3; Aila, Laine 2004, section 5.1",
+    ignores: &["cell", "caster_offset", "caster_entries"],
+    params: &[],
+    counters: &[Counter {
+        name: "exact_pairs",
+        doc: "(view-sample, caster) pairs that only exact arithmetic could decide; 0 on a GPU, which has none",
+        kind: CounterKind::Info,
+    }],
+    contract: Contract::WrongBits(1e-5),
+    features: &[],
+    size,
+    cpu: None,
+    gpu: None,
+};
+
+fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
+    vec![("mask", vec![cx.dim("position", 0), 1])]
+}
