@@ -3,3 +3,4 @@
 pub mod camera;
 pub mod light_frame;
 pub mod predicate;
+pub mod scan;
