@@ -1,5 +1,9 @@
 //! Stage `light_frame`: Where the light looks and which window of its image is divided into texels (Sintorn 2008, section 4.3, Parametrization).
 
+pub mod fitted;
+pub mod six_faces;
+pub mod whole;
+
 use crate::ports;
 use shadowgraph_core::input;
 use shadowgraph_core::pass::Pass;
@@ -19,4 +23,4 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[];
+pub const PASSES: &[&Pass] = &[&fitted::PASS, &whole::PASS, &six_faces::PASS];
