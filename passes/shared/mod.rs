@@ -1,7 +1,13 @@
 //! Code and WGSL pieces that several passes are made of.
 
 pub mod camera;
+pub mod footprint;
+pub mod hard;
+#[cfg(test)]
+pub mod hard_scenes;
 pub mod light_fit;
 pub mod light_frame;
 pub mod predicate;
+pub mod pyramid;
+pub mod receivers;
 pub mod scan;

@@ -66,10 +66,10 @@ fn no_light_leaks_through_a_shared_edge_or_corner() {
     let light = [0.3, 4.0, 0.1];
     let blockers = |p: [f32; 3]| fan.iter().filter(|corners| both_windings(p, corners, light)).count();
     assert_eq!(blockers([0.3, 0.0, 0.1]), 4);
-    for k in 0..4 {
+    for (k, end) in rim.iter().enumerate() {
         for step in 1..64 {
             let t = step as f32 / 64.0;
-            let along = |axis: usize| hub[axis] + t * (rim[k][axis] - hub[axis]);
+            let along = |axis: usize| hub[axis] + t * (end[axis] - hub[axis]);
             assert!(blockers([along(0), 0.0, along(2)]) >= 1, "edge {k} at {t}");
         }
     }

@@ -12,6 +12,10 @@
 //! only adds pairs. After it, `caster_length` sums to the number of pairs, and the slots of a cell's pairs are 0, 1, 2, ...
 //! without gaps, in unspecified order. Cells without view-samples get no pairs.
 
+mod cpu;
+#[cfg(test)]
+mod tests;
+
 use super::STAGE;
 use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
 use shadowgraph_core::size::SizeCx;
@@ -35,7 +39,7 @@ pub static PASS: Pass = Pass {
     contract: Contract::Superset,
     features: &[],
     size,
-    cpu: None,
+    cpu: Some(cpu::run),
     gpu: None,
 };
 

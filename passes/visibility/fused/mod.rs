@@ -10,6 +10,10 @@
 //! On the CPU the mask equals [`crate::shared::predicate::blocks`] bit for bit, as that of `planes` does. Takes one light
 //! sample; more is an error.
 
+mod cpu;
+#[cfg(test)]
+mod tests;
+
 use super::STAGE;
 use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
 use shadowgraph_core::size::SizeCx;
@@ -30,7 +34,7 @@ pub static PASS: Pass = Pass {
     contract: Contract::WrongBits(1e-5),
     features: &[],
     size,
-    cpu: None,
+    cpu: Some(cpu::run),
     gpu: None,
 };
 

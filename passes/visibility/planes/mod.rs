@@ -4,12 +4,17 @@
 //! triangle and inside the three planes through the light sample and the edges. Aila, Laine 2004, section 5.1: a cell all of
 //! whose view-samples are in shadow takes no more casters.
 //!
-//! In: `triangles [T 3 3]` world, `light_samples [1 3]` world, `position [P 3]` world, `triangle [P]`, `sample_state [P]`, lists of
-//! view-samples (`list_length`, `list_offset`, `list_entries`) and of casters (`caster_offset`, `caster_entries`) by cell.
+//! In: `triangles [T 3 3]` world, `caster_state [T]`, `light_samples [1 3]` world, `light_frame [F 20]`, `position [P 3]` world,
+//! `triangle [P]`, `sample_state [P]`, lists of view-samples (`list_length`, `list_offset`, `list_entries`) and of casters
+//! (`caster_offset`, `caster_entries`) by cell.
 //! Out: `mask [P 1]`, bit 0 set = blocked; all bits set for a view-sample facing away, none for background.
 //!
 //! On the CPU the mask equals [`crate::shared::predicate::blocks`] bit for bit: planes decide in floating point what their error
 //! bounds can vouch for, and the exact predicate the rest. Takes one light sample; more is an error.
+
+mod cpu;
+#[cfg(test)]
+mod tests;
 
 use super::STAGE;
 use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
@@ -21,7 +26,7 @@ pub static PASS: Pass = Pass {
     stage: &STAGE,
     doc: "Tests each view-sample of a cell against the planes of each caster listed there.",
     source: "Sintorn 2008, section 3.3; Aila, Laine 2004, section 5.1",
-    ignores: &["caster_state", "light_frame", "cell", "list_far"],
+    ignores: &["list_far"],
     params: &[],
     counters: &[Counter {
         name: "exact_pairs",
@@ -31,7 +36,7 @@ pub static PASS: Pass = Pass {
     contract: Contract::WrongBits(1e-5),
     features: &[],
     size,
-    cpu: None,
+    cpu: Some(cpu::run),
     gpu: None,
 };
 

@@ -1,0 +1,173 @@
+//! The texels of a face that a caster can matter to: rows, and one span of columns in each.
+//!
+//! Superset. A view-sample was put into its texel by f32 arithmetic, so its direction may differ from the true one by up to
+//! 8e-7 of its length ([`crate::shared::light_frame::uv_pad`]); a direction counts as covered when each of the three edge
+//! functions n . (u, v, 1) is above -[`SLACK`] |n| (1 + |u| + |v|), which is more. Texel squares are padded by the rounding of their
+//! borders. Border texels reach as far as view-samples do.
+
+use super::light_frame::Face;
+use super::pyramid::{Cone, WILD, size};
+
+/// Directions may be off by this much of their length.
+const SLACK: f64 = 2e-6;
+
+/// The texels of one face.
+#[derive(Clone, Copy, Debug)]
+pub struct Grid {
+    /// Texels a side.
+    pub side: usize,
+    /// Smallest u and v of the window.
+    low: [f64; 2],
+    /// Extent of a texel in u and v.
+    texel: [f64; 2],
+    /// Texel borders may be off by this much, texels.
+    pad: f64,
+    /// Smallest and largest u, then v, at which view-samples may be.
+    reach: [[f64; 2]; 2],
+    /// Largest depth of a view-sample, with room for rounding, scene units.
+    far: f64,
+    /// Factor that covers the rounding of a depth.
+    depth_room: f64,
+}
+
+/// The rows a caster touches, and what spans in them are made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Footprint {
+    /// First and last row.
+    pub rows: [usize; 2],
+    /// First and last column of the box.
+    columns: [usize; 2],
+    /// Edge functions, scaled to a size of one; none where the box is as good.
+    lines: Option<[[f64; 3]; 3]>,
+}
+
+impl Grid {
+    /// `side` x `side` texels over the window of `face`. `reach` is where view-samples are, if known: smallest and largest u,
+    /// then v.
+    pub fn new(face: &Face, side: usize, reach: Option<[[f32; 2]; 2]>) -> Self {
+        let count = side as f64;
+        let low = face.window_low.map(f64::from);
+        let texel = face.window_size.map(|size| f64::from(size) / count);
+        let reach = reach.map_or([[-WILD, WILD]; 2], |range| range.map(|ends| ends.map(f64::from)));
+        let [u, v] = reach.map(|[low, high]| low.abs().max(high.abs()));
+        let spread = 1.0 + u * u + v * v;
+        let reach = reach.map(|[low, high]| [low - SLACK * spread, high + SLACK * spread]);
+        let depth_room = 1.0 + SLACK * spread.sqrt();
+        let far = f64::from(face.far) * depth_room;
+        Self { side, low, texel, pad: 1e-3 + 3e-7 * count, reach, far, depth_room }
+    }
+
+    /// Whether a caster with smallest depth `near` is behind every view-sample of a cell with largest depth `list_far`.
+    #[inline(always)]
+    pub fn is_behind(&self, near: f64, list_far: f32) -> bool {
+        near > f64::from(list_far) * self.depth_room
+    }
+
+    /// First and last texel along `axis` that the padded range meets; none when no view-sample is there.
+    #[inline(always)]
+    fn range(&self, axis: usize, [low, high]: [f64; 2]) -> Option<[usize; 2]> {
+        if high < self.reach[axis][0] || low > self.reach[axis][1] {
+            return None;
+        }
+        let place = |x: f64| (x - self.low[axis]) / self.texel[axis];
+        // A cast from float saturates, so both ends land inside.
+        let first = (place(low) - self.pad) as usize;
+        let last = (place(high) + self.pad) as usize;
+        Some([first.min(self.side - 1), last.min(self.side - 1)])
+    }
+
+    /// The smallest padded range along `axis` that holds texel `index` and all that was clamped into it.
+    #[inline(always)]
+    fn extent(&self, axis: usize, index: usize) -> [f64; 2] {
+        let border = |at: f64| self.low[axis] + at * self.texel[axis];
+        let mut ends = [border(index as f64 - self.pad), border(index as f64 + 1.0 + self.pad)];
+        if index == 0 {
+            ends[0] = ends[0].min(self.reach[axis][0]);
+        }
+        if index == self.side - 1 {
+            ends[1] = ends[1].max(self.reach[axis][1]);
+        }
+        ends
+    }
+}
+
+impl Footprint {
+    /// The whole face.
+    pub fn everything(grid: &Grid) -> Self {
+        let all = [0, grid.side - 1];
+        Self { rows: all, columns: all, lines: None }
+    }
+
+    /// That of `cone`; none when it can matter to no view-sample of the face.
+    #[inline(always)]
+    pub fn new(cone: &Cone, grid: &Grid) -> Option<Self> {
+        let [near, _] = cone.depths();
+        if near > grid.far {
+            return None;
+        }
+        let mut ends = [[f64::MAX, f64::MIN]; 2];
+        for corner in &cone.corners {
+            // Below this slope the corner's own direction says little; take the whole face.
+            if corner[2] <= 1e-3 * (corner[0].abs() + corner[1].abs()) {
+                return Some(Self { lines: Some(lines(cone)), ..Self::everything(grid) });
+            }
+            let reciprocal = 1.0 / corner[2];
+            for axis in 0..2 {
+                let at = corner[axis] * reciprocal;
+                ends[axis] = [ends[axis][0].min(at), ends[axis][1].max(at)];
+            }
+        }
+        let [u, v] = ends.map(|[low, high]| low.abs().max(high.abs()));
+        let slack = SLACK * (1.0 + u * u + v * v);
+        let columns = grid.range(0, [ends[0][0] - slack, ends[0][1] + slack])?;
+        let rows = grid.range(1, [ends[1][0] - slack, ends[1][1] + slack])?;
+        let small = rows[1] - rows[0] < 2 || columns[1] - columns[0] < 2;
+        Some(Self { rows, columns, lines: (!small).then(|| lines(cone)) })
+    }
+
+    /// First and last column touched in `row`, which is one of [`Footprint::rows`].
+    #[inline(always)]
+    pub fn span(&self, grid: &Grid, row: usize) -> Option<[usize; 2]> {
+        let Some(lines) = &self.lines else {
+            return Some(self.columns);
+        };
+        let v = grid.extent(1, row);
+        let largest = grid.reach[0][0].abs().max(grid.reach[0][1].abs());
+        let mut ends = [f64::MIN, f64::MAX];
+        for [x, y, one] in lines {
+            let at = |v: f64| y * v + SLACK * v.abs();
+            let rest = one + SLACK + at(v[0]).max(at(v[1]));
+            // x u + SLACK |u| + rest >= 0: a half-line, whose end is left or right of zero as `rest` says.
+            if *x > 4.0 * SLACK {
+                ends[0] = ends[0].max(if rest < 0.0 { -rest / (x + SLACK) } else { -rest / (x - SLACK) });
+            } else if *x < -4.0 * SLACK {
+                ends[1] = ends[1].min(if rest < 0.0 { rest / (SLACK - x) } else { rest / (-x - SLACK) });
+            } else if rest + 5.0 * SLACK * largest < 0.0 {
+                return None;
+            }
+        }
+        if ends[0] > ends[1] {
+            return None;
+        }
+        let [first, last] = grid.range(0, ends)?;
+        let span = [first.max(self.columns[0]), last.min(self.columns[1])];
+        (span[0] <= span[1]).then_some(span)
+    }
+}
+
+/// Edge functions scaled to a size of one, so that slack is absolute. A zero function bounds nothing.
+#[inline(always)]
+fn lines(cone: &Cone) -> [[f64; 3]; 3] {
+    let mut lines = cone.edges;
+    for (line, error) in lines.iter_mut().zip(cone.edge_error) {
+        let length = size(*line);
+        // Where rounding rivals the function itself it bounds nothing either.
+        let scale = if length > 1e8 * error && length > 1e-290 { 1.0 / length } else { 0.0 };
+        *line = line.map(|x| x * scale);
+    }
+    lines
+}
+
+#[cfg(test)]
+#[path = "footprint_tests.rs"]
+mod tests;

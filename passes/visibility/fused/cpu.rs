@@ -1,0 +1,102 @@
+//! Casters in parallel; each walks the rows of its footprint, and each row is one run of listed view-samples.
+
+use crate::shared::footprint::{Footprint, Grid};
+use crate::shared::hard::{Scene, mask};
+use crate::shared::light_frame;
+use crate::shared::predicate::Corners;
+use crate::shared::pyramid::{Planes, Reach};
+use crate::shared::receivers::{FaceRange, LANES, Receivers, Settle};
+use fearless_simd::{Level, Simd, dispatch};
+use rayon::prelude::*;
+use shadowgraph_core::cpu::CpuCx;
+use shadowgraph_core::problem::Problem;
+
+/// Casters that one task takes: enough to hide its cost, few enough to share out big ones.
+const CASTERS_A_TASK: usize = 256;
+
+/// Everything a task reads.
+struct Walk<'a> {
+    scene: Scene<'a>,
+    caster_state: &'a [u32],
+    receivers: Receivers,
+    grids: Vec<Grid>,
+    extents: Vec<[f64; 2]>,
+    side: usize,
+    offsets: &'a [u32],
+}
+
+/// The CPU function.
+pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
+    let faces = light_frame::faces(cx.input("light_frame").as_f32());
+    let scene = Scene::new(cx, &faces)?;
+    let side = cx.input("list_length").dim(2);
+    let offsets = cx.input("list_offset").as_u32();
+    let receivers = Receivers::gather(&scene, &faces, side * side, offsets, cx.input("list_entries").as_u32());
+    let grid = |(face, range): (_, &FaceRange)| Grid::new(face, side, Some(range.reach));
+    let grids = faces.iter().zip(&receivers.faces).map(grid).collect();
+    let extents = (0..faces.len()).map(|face| receivers.extent(face)).collect();
+    let caster_state = cx.input("caster_state").as_u32();
+    let walk = Walk { scene, caster_state, receivers, grids, extents, side, offsets };
+    let exact = walk.all(Level::new());
+    let wild_blocked = scene.blocked_wild(&walk.receivers, caster_state);
+    let mask = mask(&walk.receivers, cx.input("sample_state").as_u32(), &wild_blocked);
+    cx.count("exact_pairs", exact);
+    cx.put("mask", mask);
+    Ok(())
+}
+
+impl Walk<'_> {
+    /// Every caster on every face; the number of pairs that went to the exact predicate.
+    fn all(&self, level: Level) -> u64 {
+        let tasks = self.scene.triangles.par_chunks(CASTERS_A_TASK).enumerate();
+        tasks.map(|(task, triangles)| dispatch!(level, simd => self.task(simd, task * CASTERS_A_TASK, triangles))).sum()
+    }
+
+    #[inline(always)]
+    fn task<S: Simd>(&self, simd: S, first: usize, triangles: &[Corners]) -> u64 {
+        let mut exact = 0;
+        for (face, range) in self.receivers.faces.iter().enumerate() {
+            if range.places[0] == range.places[1] {
+                continue;
+            }
+            for (index, corners) in triangles.iter().enumerate() {
+                if self.caster_state[first + index] != 0 {
+                    exact += self.caster(simd, face, first + index, corners);
+                }
+            }
+        }
+        exact
+    }
+
+    #[inline(always)]
+    fn caster<S: Simd>(&self, simd: S, face: usize, caster: usize, corners: &Corners) -> u64 {
+        let grid = &self.grids[face];
+        let range = &self.receivers.faces[face];
+        let (cone, footprint, planes) = match range.space.reach(corners) {
+            Reach::Nothing => return 0,
+            Reach::Anything => (None, Footprint::everything(grid), Planes::ANYTHING),
+            Reach::Cone(cone) => {
+                let Some(footprint) = Footprint::new(&cone, grid) else {
+                    return 0;
+                };
+                (Some(cone), footprint, Planes::new(&cone, self.extents[face]))
+            }
+        };
+        let mut settle = Settle::new(&self.scene, &range.space, caster as u32, Some(cone));
+        let cells = face * self.side * self.side;
+        for row in footprint.rows[0]..=footprint.rows[1] {
+            let Some([first, last]) = footprint.span(grid, row) else {
+                continue;
+            };
+            let start = cells + row * self.side;
+            let from = self.offsets[start + first] as usize + range.shift;
+            let to = self.offsets[start + last + 1] as usize + range.shift;
+            if from < to {
+                for chunk in from / LANES..=(to - 1) / LANES {
+                    self.receivers.test(simd, chunk, u16::MAX, &planes, &mut settle);
+                }
+            }
+        }
+        settle.exact
+    }
+}
