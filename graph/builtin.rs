@@ -1,0 +1,22 @@
+//! Graphs that come with the crate.
+
+/// Name and text of each.
+const BUILTIN: &[(&str, &str)] = &[
+    ("hard", include_str!("variants/hard.ron")),
+    ("hard_fused", include_str!("variants/hard_fused.ron")),
+    ("hard_draw", include_str!("variants/hard_draw.ron")),
+    ("shadow_map", include_str!("variants/shadow_map.ron")),
+    ("pcf", include_str!("variants/pcf.ron")),
+    ("rays", include_str!("variants/rays.ron")),
+    ("truth_hard", include_str!("variants/truth_hard.ron")),
+];
+
+/// Text of the built-in graph `name`.
+pub fn builtin(name: &str) -> Option<&'static str> {
+    BUILTIN.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+/// Names of all built-in graphs.
+pub fn builtin_names() -> Vec<&'static str> {
+    BUILTIN.iter().map(|(name, _)| *name).collect()
+}
