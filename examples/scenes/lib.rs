@@ -1,1 +1,15 @@
 //! Scenes as plain data: glTF 2.0 files, views files, procedural scenes.
+//!
+//! [`place::load`] makes a [`shadowgraph_core::scene::Scene`] of a path or of `builtin:NAME?param=value&..`;
+//! [`place::choose_view`] finds a camera and a light for it. All that can be wrong with what a user gave is a
+//! [`shadowgraph_core::problem::Problem`].
+#![forbid(unsafe_code)]
+
+pub mod builtin;
+pub mod gltf;
+pub mod place;
+mod random;
+pub mod soup;
+pub mod topology;
+
+pub use place::load;
