@@ -1,13 +1,16 @@
 //! Code and WGSL pieces that several passes are made of.
 
+pub mod bvh;
 pub mod camera;
 pub mod footprint;
 pub mod hard;
 #[cfg(test)]
 pub mod hard_scenes;
 pub mod light_fit;
+pub mod contact;
 pub mod light_frame;
 pub mod predicate;
 pub mod pyramid;
 pub mod receivers;
 pub mod scan;
+pub mod segments;

@@ -1,5 +1,7 @@
 //! Stage `visibility`: Which light samples each view-sample cannot see (Sintorn 2008, sections 3.3 and 4.2).
 
+pub mod bvh_rays;
+pub mod exact;
 pub mod fused;
 pub mod planes;
 
@@ -32,4 +34,4 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS];
+pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS, &exact::PASS, &bvh_rays::PASS];
