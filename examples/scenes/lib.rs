@@ -7,9 +7,15 @@
 
 pub mod builtin;
 pub mod gltf;
+mod nearest;
 pub mod place;
 mod random;
 pub mod soup;
 pub mod topology;
+pub mod views;
 
-pub use place::load;
+pub use place::{ChosenView, choose_view, load};
+pub use views::Views;
+
+#[cfg(test)]
+mod tests;

@@ -1,9 +1,28 @@
 //! From what stands on a command line to a scene and a view of it.
 
+use crate::nearest::nearest;
+use crate::views::{View, Views};
 use crate::{builtin, gltf};
-use shadowgraph_core::problem::Problem;
-use shadowgraph_core::scene::Scene;
+use glam::{Vec3, vec3};
+use shadowgraph_core::problem::{Kind, Place, Problem};
+use shadowgraph_core::scene::{Camera, Light, Scene};
 use std::path::Path;
+
+/// Full vertical angle of a camera that frames a scene, radians.
+const FRAMING_ANGLE: f32 = 40.0 * std::f32::consts::PI / 180.0;
+
+/// A camera and a light, and how they were found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChosenView {
+    /// What the image is seen through.
+    pub camera: Camera,
+    /// What casts the shadows.
+    pub light: Light,
+    /// Corners of a rectangular light, where a views file has them.
+    pub rect_corners: Option<[[f32; 3]; 4]>,
+    /// Sentences for the record: what was assumed where nothing was given.
+    pub notes: Vec<String>,
+}
 
 /// Loads a path to a .glb or .gltf file, or `builtin:NAME?param=value&..`.
 pub fn load(spec: &str) -> Result<Scene, Problem> {
@@ -11,4 +30,84 @@ pub fn load(spec: &str) -> Result<Scene, Problem> {
         Some(rest) => builtin::build(rest),
         None => gltf::load(Path::new(spec)),
     }
+}
+
+/// Finds camera and light of a scene: from the views file where one is given, else from the scene's own file, else so that
+/// they frame its bounding box. `name` is a view of the views file, or without one a camera of the scene.
+pub fn choose_view(scene: &Scene, views: Option<&Views>, name: Option<&str>) -> Result<ChosenView, Problem> {
+    let mut notes = Vec::new();
+    let (camera, light, rect_corners) = match views {
+        Some(views) => {
+            let View { camera, light, rect_corners } = views.view(short_name(scene), name)?.clone();
+            (camera, light, rect_corners)
+        }
+        None => (own_camera(scene, name, &mut notes)?, None, None),
+    };
+    let light = light.unwrap_or_else(|| own_light(scene, &mut notes));
+    Ok(ChosenView { camera, light, rect_corners, notes })
+}
+
+/// The name under which a views file keeps a scene: a file's without its ending, a built-in scene's without parameters.
+pub fn short_name(scene: &Scene) -> &str {
+    let name = scene.name.strip_prefix(builtin::PREFIX).unwrap_or(&scene.name);
+    name.split('?').next().unwrap_or(name)
+}
+
+fn own_camera(scene: &Scene, name: Option<&str>, notes: &mut Vec<String>) -> Result<Camera, Problem> {
+    if let Some(name) = name {
+        let names = || scene.cameras.iter().map(|camera| camera.name.as_str());
+        return scene.cameras.iter().find(|camera| camera.name == name).cloned().ok_or_else(|| {
+            Problem::new(Kind::UnknownName, "the scene has no such camera")
+                .at(Place { file: scene.name.clone(), line: 0, column: 0, path: "cameras".into() })
+                .expected(names().collect::<Vec<_>>().join(", "))
+                .found(name)
+                .remedy(format!("{}; or give a views file", nearest(name, names())))
+        });
+    }
+    match scene.cameras.as_slice() {
+        [] => {
+            notes.push("no camera given: one that frames the scene's bounding box is used".into());
+            let (middle, diagonal) = frame(scene);
+            // Far enough for the sphere around the box to fit.
+            let distance = 0.5 * diagonal / (FRAMING_ANGLE / 2.0).sin();
+            let eye = middle + vec3(0.6, 0.5, 0.8).normalize() * distance;
+            Ok(Camera {
+                name: "frame".into(),
+                eye: eye.to_array(),
+                target: middle.to_array(),
+                up: [0.0, 1.0, 0.0],
+                fov_y: FRAMING_ANGLE,
+            })
+        }
+        [only] => Ok(only.clone()),
+        [first, ..] => {
+            notes.push(format!("{} cameras in the scene: {} is used", scene.cameras.len(), first.name));
+            Ok(first.clone())
+        }
+    }
+}
+
+fn own_light(scene: &Scene, notes: &mut Vec<String>) -> Light {
+    match scene.lights.as_slice() {
+        [] => {
+            notes.push("no light given: a point above and beside the scene's bounding box is used".into());
+            let (middle, diagonal) = frame(scene);
+            // Up by 0.87 diagonals from the middle, which is above the top: half the height is half a diagonal at most.
+            let position = middle + vec3(0.45, 1.0, 0.3).normalize() * diagonal;
+            Light { name: "frame".into(), position: position.to_array(), radius: 0.02 * diagonal, color: [1.0; 3] }
+        }
+        [only] => only.clone(),
+        [first, ..] => {
+            notes.push(format!("{} lights in the scene: {} alone is used", scene.lights.len(), first.name));
+            first.clone()
+        }
+    }
+}
+
+/// Middle and diagonal of the bounding box; a diagonal that stays distinct in f32 at the middle.
+fn frame(scene: &Scene) -> (Vec3, f32) {
+    let [low, high] = scene.bounds().unwrap_or([[-1.0; 3], [1.0; 3]]).map(Vec3::from);
+    let middle = low + (high - low) / 2.0;
+    let diagonal = (high - low).length();
+    (middle, if diagonal > 0.0 { diagonal.max(1e-4 * middle.abs().max_element()) } else { 1.0f32.max(middle.length()) })
 }

@@ -1,6 +1,7 @@
 //! `NAME?param=value&..` to a scene and checked parameters.
 
 use super::{Builtin, PREFIX, list};
+use crate::nearest::nearest;
 use shadowgraph_core::param::{ParamSpec, Params, Range, Value};
 use shadowgraph_core::problem::{Kind, Place, Problem};
 
@@ -53,9 +54,4 @@ fn read(spec: &ParamSpec, text: &str) -> Result<Value, Problem> {
     parsed.and_then(|value| spec.range.check(&value).ok()).ok_or_else(|| {
         Problem::new(Kind::BadValue, "parameter value not allowed").expected(spec.range.text()).found(text)
     })
-}
-
-fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> String {
-    let best = names.max_by(|a, b| strsim::jaro_winkler(name, a).total_cmp(&strsim::jaro_winkler(name, b)));
-    format!("nearest: {}", best.unwrap_or_default())
 }

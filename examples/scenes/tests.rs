@@ -1,0 +1,96 @@
+//! Views files and the choice of a view.
+
+use crate::builtin;
+use crate::place::{choose_view, short_name};
+use crate::views::Views;
+use shadowgraph_core::problem::Kind;
+use shadowgraph_core::scene::Scene;
+
+const VIEWS: &str = r#"{ "about": "tests", "scenes": { "columns": { "views": [
+  { "name": "overview", "note": "x", "eye": [0, 1, 5], "target": [0, 0, 0], "up": [0, 1, 0], "fov_y_deg": 45,
+    "light": { "position": [2, 8, 3], "radius": 0.5, "rect_corners": [[0,0,0],[1,0,0],[1,1,0],[0,1,0]] } },
+  { "name": "bare", "eye": [0, 1, 5], "target": [0, 0, 0], "fov_y_deg": 30 } ] } } }"#;
+
+fn problem(from: &str, to: &str) -> shadowgraph_core::problem::Problem {
+    assert!(VIEWS.contains(from));
+    Views::parse("v.json", &VIEWS.replacen(from, to, 1)).expect_err(to)
+}
+
+#[test]
+fn a_views_file_gives_camera_and_light() {
+    let views = Views::parse("v.json", VIEWS).unwrap();
+    let scene = builtin::build("columns?count=2").unwrap();
+    assert_eq!(short_name(&scene), "columns");
+    assert_eq!(views.view_names("columns"), ["overview", "bare"]);
+
+    let first = choose_view(&scene, Some(&views), None).unwrap();
+    assert_eq!((first.camera.eye, first.camera.fov_y), ([0.0, 1.0, 5.0], 45.0_f32.to_radians()));
+    assert_eq!((first.light.position, first.light.radius), ([2.0, 8.0, 3.0], 0.5));
+    assert_eq!(first.rect_corners.map(|corners| corners[2]), Some([1.0, 1.0, 0.0]));
+    assert!(first.notes.is_empty());
+
+    let bare = choose_view(&scene, Some(&views), Some("bare")).unwrap();
+    assert_eq!(bare.light, scene.lights[0]);
+    let unknown = choose_view(&scene, Some(&views), Some("overveiw")).unwrap_err();
+    assert_eq!((unknown.kind, unknown.remedy.as_deref()), (Kind::UnknownName, Some("nearest: overview")));
+    let other = Scene { name: "colums".into(), ..Scene::default() };
+    let unknown = choose_view(&other, Some(&views), None).unwrap_err();
+    assert_eq!((unknown.kind, unknown.remedy.as_deref()), (Kind::UnknownName, Some("nearest: columns")));
+}
+
+#[test]
+fn what_is_wrong_in_a_views_file_is_located() {
+    let text = problem("\"eye\": [0, 1, 5], \"target\"", "\"eye\": [0, 1], \"target\"");
+    let place = text.place.clone().unwrap();
+    assert_eq!((text.kind, place.file.as_str(), place.line), (Kind::Syntax, "v.json", 2));
+
+    let path = |from: &str, to: &str| {
+        let found = problem(from, to);
+        assert_eq!(found.kind, Kind::BadValue, "{found}");
+        found.place.unwrap().path
+    };
+    assert_eq!(path("[0, 1, 0]", "[0, -1, -5]"), "scenes.columns.views[0].up");
+    assert_eq!(path("\"fov_y_deg\": 30", "\"fov_y_deg\": 180"), "scenes.columns.views[1].fov_y_deg");
+    assert_eq!(path("\"target\": [0, 0, 0]", "\"target\": [0, 1, 5]"), "scenes.columns.views[0].target");
+    assert_eq!(path("\"radius\": 0.5", "\"radius\": -1"), "scenes.columns.views[0].light.radius");
+    assert_eq!(path("[2, 8, 3]", "[1e30, 8, 3]"), "scenes.columns.views[0].light.position");
+    assert_eq!(Views::read(std::path::Path::new("no/such/file.json")).unwrap_err().kind, Kind::File);
+}
+
+#[test]
+fn without_any_view_the_box_is_framed_and_the_light_is_outside() {
+    let mut scene = builtin::build("columns").unwrap();
+    assert_eq!(choose_view(&scene, None, None).unwrap().camera, scene.cameras[0]);
+    assert_eq!(choose_view(&scene, None, Some("default")).unwrap().camera, scene.cameras[0]);
+    assert_eq!(choose_view(&scene, None, Some("other")).unwrap_err().kind, Kind::UnknownName);
+
+    scene.cameras.clear();
+    scene.lights.clear();
+    // Flat, tall, tiny and far, a point, nothing.
+    let corners = |low: [f32; 3], high: [f32; 3]| vec![[low, high, low]];
+    let cases = [
+        scene.positions.clone(),
+        corners([0.0; 3], [1.0, 0.0, 1.0]),
+        corners([0.0; 3], [0.01, 100.0, 0.01]),
+        corners([1e6, 0.0, 1e6], [1e6 + 0.125, 0.0, 1e6]),
+        corners([3.0; 3], [3.0; 3]),
+        Vec::new(),
+    ];
+    for positions in cases {
+        scene.positions = positions;
+        let view = choose_view(&scene, None, None).unwrap();
+        assert_eq!(view.notes.len(), 2);
+        assert_ne!(view.camera.eye, view.camera.target);
+        let [low, high] = scene.bounds().unwrap_or_default();
+        let inside = |point: [f32; 3]| (0..3).all(|axis| low[axis] <= point[axis] && point[axis] <= high[axis]);
+        assert!(!inside(view.light.position) && !inside(view.camera.eye), "{view:?}");
+        assert!(view.light.position[1] > high[1]);
+        // Every corner lies inside the camera's cone.
+        let eye = glam::Vec3::from(view.camera.eye);
+        let forward = (glam::Vec3::from(view.camera.target) - eye).normalize();
+        for corner in scene.positions.iter().flatten() {
+            let cosine = (glam::Vec3::from(*corner) - eye).normalize().dot(forward);
+            assert!(cosine >= (view.camera.fov_y / 2.0).cos() - 1e-3, "{corner:?}");
+        }
+    }
+}
