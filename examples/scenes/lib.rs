@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod builtin;
+pub mod export;
 pub mod gltf;
 mod nearest;
 pub mod place;
@@ -14,7 +15,7 @@ pub mod soup;
 pub mod topology;
 pub mod views;
 
-pub use place::{ChosenView, choose_view, load};
+pub use place::{View, choose_from, choose_view, load, view_names};
 pub use views::Views;
 
 #[cfg(test)]

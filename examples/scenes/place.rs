@@ -1,7 +1,7 @@
 //! From what stands on a command line to a scene and a view of it.
 
 use crate::nearest::nearest;
-use crate::views::{View, Views};
+use crate::views::Views;
 use crate::{builtin, gltf};
 use glam::{Vec3, vec3};
 use shadowgraph_core::problem::{Kind, Place, Problem};
@@ -13,15 +13,13 @@ const FRAMING_ANGLE: f32 = 40.0 * std::f32::consts::PI / 180.0;
 
 /// A camera and a light, and how they were found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ChosenView {
+pub struct View {
     /// What the image is seen through.
     pub camera: Camera,
     /// What casts the shadows.
     pub light: Light,
-    /// Corners of a rectangular light, where a views file has them.
-    pub rect_corners: Option<[[f32; 3]; 4]>,
     /// Sentences for the record: what was assumed where nothing was given.
-    pub notes: Vec<String>,
+    pub note: Vec<String>,
 }
 
 /// Loads a path to a .glb or .gltf file, or `builtin:NAME?param=value&..`.
@@ -32,33 +30,53 @@ pub fn load(spec: &str) -> Result<Scene, Problem> {
     }
 }
 
-/// Finds camera and light of a scene: from the views file where one is given, else from the scene's own file, else so that
-/// they frame its bounding box. `name` is a view of the views file, or without one a camera of the scene.
-pub fn choose_view(scene: &Scene, views: Option<&Views>, name: Option<&str>) -> Result<ChosenView, Problem> {
-    let mut notes = Vec::new();
-    let (camera, light, rect_corners) = match views {
-        Some(views) => {
-            let View { camera, light, rect_corners } = views.view(short_name(scene), name)?.clone();
-            (camera, light, rect_corners)
+/// Finds camera and light of a scene that was loaded from `spec`: from the views file where one is given, else from the
+/// scene's own file, else so that they frame its bounding box. `view` is a view of the views file, or without one a camera
+/// of the scene; without a name the first is used.
+pub fn choose_view(scene: &Scene, spec: &str, views: Option<&Path>, view: Option<&str>) -> Result<View, Problem> {
+    match views {
+        Some(path) => choose_from(scene, spec, &Views::read(path)?, view),
+        None => {
+            let mut note = Vec::new();
+            let camera = own_camera(scene, spec, view, &mut note)?;
+            let light = own_light(scene, &mut note);
+            Ok(View { camera, light, note })
         }
-        None => (own_camera(scene, name, &mut notes)?, None, None),
-    };
-    let light = light.unwrap_or_else(|| own_light(scene, &mut notes));
-    Ok(ChosenView { camera, light, rect_corners, notes })
+    }
+}
+
+/// [`choose_view`] with a views file that is read already. A view without a light gets the scene's.
+pub fn choose_from(scene: &Scene, spec: &str, views: &Views, view: Option<&str>) -> Result<View, Problem> {
+    let found = views.view(short_name(spec), view)?;
+    let mut note = Vec::new();
+    let light = found.light.clone().unwrap_or_else(|| own_light(scene, &mut note));
+    Ok(View { camera: found.camera.clone(), light, note })
+}
+
+/// Names that [`choose_view`] takes: those of the views file, else of the scene's cameras; empty where the scene has none.
+pub fn view_names(scene: &Scene, spec: &str, views: Option<&Path>) -> Result<Vec<String>, Problem> {
+    match views {
+        Some(path) => Views::read(path)?
+            .of_scene(short_name(spec))
+            .map(|views| views.iter().map(|view| view.camera.name.clone()).collect()),
+        None => Ok(scene.cameras.iter().map(|camera| camera.name.clone()).collect()),
+    }
 }
 
 /// The name under which a views file keeps a scene: a file's without its ending, a built-in scene's without parameters.
-pub fn short_name(scene: &Scene) -> &str {
-    let name = scene.name.strip_prefix(builtin::PREFIX).unwrap_or(&scene.name);
-    name.split('?').next().unwrap_or(name)
+pub fn short_name(spec: &str) -> &str {
+    match spec.strip_prefix(builtin::PREFIX) {
+        Some(name) => name.split('?').next().unwrap_or(name),
+        None => Path::new(spec).file_stem().and_then(|stem| stem.to_str()).unwrap_or(spec),
+    }
 }
 
-fn own_camera(scene: &Scene, name: Option<&str>, notes: &mut Vec<String>) -> Result<Camera, Problem> {
+fn own_camera(scene: &Scene, spec: &str, name: Option<&str>, notes: &mut Vec<String>) -> Result<Camera, Problem> {
     if let Some(name) = name {
         let names = || scene.cameras.iter().map(|camera| camera.name.as_str());
         return scene.cameras.iter().find(|camera| camera.name == name).cloned().ok_or_else(|| {
             Problem::new(Kind::UnknownName, "the scene has no such camera")
-                .at(Place { file: scene.name.clone(), line: 0, column: 0, path: "cameras".into() })
+                .at(Place { file: spec.into(), line: 0, column: 0, path: "cameras".into() })
                 .expected(names().collect::<Vec<_>>().join(", "))
                 .found(name)
                 .remedy(format!("{}; or give a views file", nearest(name, names())))

@@ -1,10 +1,9 @@
 //! Views files and the choice of a view.
 
 use crate::builtin;
-use crate::place::{choose_view, short_name};
+use crate::place::{choose_from, choose_view, short_name};
 use crate::views::Views;
 use shadowgraph_core::problem::Kind;
-use shadowgraph_core::scene::Scene;
 
 const VIEWS: &str = r#"{ "about": "tests", "scenes": { "columns": { "views": [
   { "name": "overview", "note": "x", "eye": [0, 1, 5], "target": [0, 0, 0], "up": [0, 1, 0], "fov_y_deg": 45,
@@ -20,21 +19,21 @@ fn problem(from: &str, to: &str) -> shadowgraph_core::problem::Problem {
 fn a_views_file_gives_camera_and_light() {
     let views = Views::parse("v.json", VIEWS).unwrap();
     let scene = builtin::build("columns?count=2").unwrap();
-    assert_eq!(short_name(&scene), "columns");
-    assert_eq!(views.view_names("columns"), ["overview", "bare"]);
+    assert_eq!(short_name("builtin:columns?count=2"), "columns");
+    assert_eq!(short_name("../some/folder/sponza.v2.glb"), "sponza.v2");
 
-    let first = choose_view(&scene, Some(&views), None).unwrap();
+    let first = choose_from(&scene, "columns.glb", &views, None).unwrap();
     assert_eq!((first.camera.eye, first.camera.fov_y), ([0.0, 1.0, 5.0], 45.0_f32.to_radians()));
     assert_eq!((first.light.position, first.light.radius), ([2.0, 8.0, 3.0], 0.5));
-    assert_eq!(first.rect_corners.map(|corners| corners[2]), Some([1.0, 1.0, 0.0]));
-    assert!(first.notes.is_empty());
+    let corners = views.view("columns", Some("overview")).unwrap().rect_corners;
+    assert_eq!(corners.map(|corners| corners[2]), Some([1.0, 1.0, 0.0]));
+    assert!(first.note.is_empty());
 
-    let bare = choose_view(&scene, Some(&views), Some("bare")).unwrap();
+    let bare = choose_from(&scene, "columns.glb", &views, Some("bare")).unwrap();
     assert_eq!(bare.light, scene.lights[0]);
-    let unknown = choose_view(&scene, Some(&views), Some("overveiw")).unwrap_err();
+    let unknown = choose_from(&scene, "columns.glb", &views, Some("overveiw")).unwrap_err();
     assert_eq!((unknown.kind, unknown.remedy.as_deref()), (Kind::UnknownName, Some("nearest: overview")));
-    let other = Scene { name: "colums".into(), ..Scene::default() };
-    let unknown = choose_view(&other, Some(&views), None).unwrap_err();
+    let unknown = choose_from(&scene, "colums.glb", &views, None).unwrap_err();
     assert_eq!((unknown.kind, unknown.remedy.as_deref()), (Kind::UnknownName, Some("nearest: columns")));
 }
 
@@ -60,9 +59,9 @@ fn what_is_wrong_in_a_views_file_is_located() {
 #[test]
 fn without_any_view_the_box_is_framed_and_the_light_is_outside() {
     let mut scene = builtin::build("columns").unwrap();
-    assert_eq!(choose_view(&scene, None, None).unwrap().camera, scene.cameras[0]);
-    assert_eq!(choose_view(&scene, None, Some("default")).unwrap().camera, scene.cameras[0]);
-    assert_eq!(choose_view(&scene, None, Some("other")).unwrap_err().kind, Kind::UnknownName);
+    assert_eq!(choose_view(&scene, "x.glb", None, None).unwrap().camera, scene.cameras[0]);
+    assert_eq!(choose_view(&scene, "x.glb", None, Some("default")).unwrap().camera, scene.cameras[0]);
+    assert_eq!(choose_view(&scene, "x.glb", None, Some("other")).unwrap_err().kind, Kind::UnknownName);
 
     scene.cameras.clear();
     scene.lights.clear();
@@ -78,8 +77,8 @@ fn without_any_view_the_box_is_framed_and_the_light_is_outside() {
     ];
     for positions in cases {
         scene.positions = positions;
-        let view = choose_view(&scene, None, None).unwrap();
-        assert_eq!(view.notes.len(), 2);
+        let view = choose_view(&scene, "x.glb", None, None).unwrap();
+        assert_eq!(view.note.len(), 2);
         assert_ne!(view.camera.eye, view.camera.target);
         let [low, high] = scene.bounds().unwrap_or_default();
         let inside = |point: [f32; 3]| (0..3).all(|axis| low[axis] <= point[axis] && point[axis] <= high[axis]);

@@ -114,22 +114,17 @@ impl Views {
         })
     }
 
-    /// Names of the views of a scene; none for a scene that is not in the file.
-    pub fn view_names(&self, scene: &str) -> Vec<&str> {
-        self.scenes.get(scene).into_iter().flatten().map(|view| view.camera.name.as_str()).collect()
-    }
-
     /// The view of that name; the first where no name is given.
     pub fn view(&self, scene: &str, name: Option<&str>) -> Result<&View, Problem> {
         let views = self.of_scene(scene)?;
         let Some(name) = name else { return Ok(&views[0]) };
         views.iter().find(|view| view.camera.name == name).ok_or_else(|| {
-            let names = self.view_names(scene);
+            let names = || views.iter().map(|view| view.camera.name.as_str());
             Problem::new(Kind::UnknownName, "no such view")
                 .at(Place { file: self.file.clone(), line: 0, column: 0, path: format!("scenes.{scene}.views") })
-                .expected(names.join(", "))
+                .expected(names().collect::<Vec<_>>().join(", "))
                 .found(name)
-                .remedy(nearest(name, names.into_iter()))
+                .remedy(nearest(name, names()))
         })
     }
 }

@@ -16,7 +16,7 @@ use shadowgraph_core::scene::Scene;
 pub const PREFIX: &str = "builtin:";
 
 /// A procedural scene.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, serde::Serialize)]
 pub struct Builtin {
     /// Name behind [`PREFIX`].
     pub name: &'static str,
@@ -25,6 +25,7 @@ pub struct Builtin {
     /// Its parameters.
     pub params: &'static [ParamSpec],
     /// Builds it.
+    #[serde(skip)]
     pub build: fn(&Params) -> Soup,
 }
 
