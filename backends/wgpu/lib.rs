@@ -1,1 +1,40 @@
 //! Records a plan's GPU recipes into a host's wgpu encoder.
+//!
+//! Two ways in. A **host** that owns instance, device, queue and encoder asks [`features::required_features`] and
+//! [`limits::required_limits`] before it makes its device, builds a [`Prepared`] and calls [`Prepared::record`] between passes
+//! of its own; on that way nothing here makes a device, polls or submits. A **program** without a device uses a
+//! [`Session`], which does all of that and hands back arrays, times and counts.
+//!
+//! What is wrong with a recipe or a kernel (a binding that does not match, a port that is written though it is an input) is a
+//! mistake of the pass and panics with node and binding. What the world lacks (adapter, feature, memory) is a
+//! [`Problem`](shadowgraph_core::problem::Problem).
+#![forbid(unsafe_code)]
+
+pub mod adapter;
+mod command;
+pub mod counters;
+mod errors;
+pub mod externals;
+pub mod features;
+mod group;
+pub mod limits;
+mod pipeline;
+mod pool;
+mod prepare;
+pub mod readback;
+mod recipe;
+mod record;
+mod run;
+pub mod segment;
+pub mod session;
+mod shader;
+pub mod timing;
+pub mod upload;
+
+#[cfg(test)]
+mod tests;
+
+pub use externals::Externals;
+pub use prepare::{Prepared, Request};
+pub use session::{Options, Outcome, Session};
+pub use wgpu;
