@@ -1,0 +1,73 @@
+//! What a run gives back, whichever backends ran it.
+
+use serde::Serialize;
+use shadowgraph_cpu::Store;
+
+/// Values by slot, and what each node did.
+#[derive(Debug)]
+pub struct Outcome {
+    /// Kept values, by slot.
+    pub values: Store,
+    /// Nodes in the order of the plan.
+    pub nodes: Vec<NodeRecord>,
+    /// Whole runs, wall clock, milliseconds, in order of time.
+    pub frames_millis: Vec<f64>,
+}
+
+/// One node in a run's record.
+#[derive(Clone, Debug, Serialize)]
+pub struct NodeRecord {
+    /// Id in the graph file.
+    pub node: String,
+    /// Stage.
+    pub stage: &'static str,
+    /// Pass.
+    pub pass: &'static str,
+    /// Backend.
+    pub on: shadowgraph_core::plan::Backend,
+    /// Whose clock, and what it measured.
+    pub clock: &'static str,
+    /// Time of each run, milliseconds.
+    pub millis: Vec<f64>,
+    /// Size of its outputs.
+    pub bytes: usize,
+    /// Counts by name.
+    pub counts: Vec<(&'static str, u64)>,
+}
+
+/// Median, smallest and largest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// Median.
+    pub median: f64,
+    /// Smallest.
+    pub min: f64,
+    /// Largest.
+    pub max: f64,
+}
+
+impl Spread {
+    /// Of `values`; zeros when there are none.
+    pub fn of(values: &[f64]) -> Self {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let Some((first, last)) = sorted.first().zip(sorted.last()) else {
+            return Self { median: 0.0, min: 0.0, max: 0.0 };
+        };
+        let middle = sorted.len() / 2;
+        let median = if sorted.len() % 2 == 1 { sorted[middle] } else { (sorted[middle - 1] + sorted[middle]) / 2.0 };
+        Self { median, min: *first, max: *last }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_of_odd_even_and_none() {
+        assert_eq!(Spread::of(&[3.0, 1.0, 2.0]), Spread { median: 2.0, min: 1.0, max: 3.0 });
+        assert_eq!(Spread::of(&[4.0, 1.0, 2.0, 3.0]).median, 2.5);
+        assert_eq!(Spread::of(&[]).median, 0.0);
+    }
+}
