@@ -1,1 +1,29 @@
-//! The shadowgraph program: render, verify, check, graph, passes.
+//! What a program that runs graphs needs beside the libraries: scene and view by name, a run across both backends, records,
+//! dumps, pictures, verification.
+
+pub mod args;
+pub mod commands;
+pub mod dump;
+pub mod engine;
+pub mod job;
+pub mod npy;
+pub mod outcome;
+pub mod picture;
+pub mod record;
+pub mod report;
+pub mod verify;
+
+use shadowgraph_core::problem::{Kind, Place, Problem};
+use std::path::Path;
+
+/// A file that cannot be read or written.
+pub fn file_problem(path: &Path, error: &std::io::Error) -> Problem {
+    let place = Place { file: path.display().to_string(), line: 0, column: 0, path: String::new() };
+    Problem::new(Kind::File, error.to_string()).at(place).remedy("check the path and its rights")
+}
+
+/// What went wrong on the command line itself.
+pub fn usage_problem(message: impl Into<String>) -> Problem {
+    let place = Place { file: "command line".into(), line: 0, column: 0, path: String::new() };
+    Problem::new(Kind::BadValue, message).at(place)
+}

@@ -1,0 +1,134 @@
+//! A run's record: what ran, on what, what it cost, what was left out. Printed as JSON or as tables.
+
+use crate::job::Job;
+use crate::outcome::{NodeRecord, Outcome, Spread};
+use serde::Serialize;
+use shadowgraph_core::facts::Facts;
+use shadowgraph_core::plan::Plan;
+
+/// Which device and driver.
+#[derive(Clone, Debug, Serialize)]
+pub struct DeviceRecord {
+    /// `cpu` or `wgpu`.
+    pub backend: &'static str,
+    /// Why this one.
+    pub reason: String,
+    /// Adapter name; empty on the CPU.
+    pub adapter: String,
+    /// Driver and its version; empty on the CPU.
+    pub driver: String,
+    /// Kind of adapter: `DiscreteGpu`, `Cpu` (a software rasteriser), ...
+    pub adapter_type: String,
+    /// CPU threads.
+    pub threads: usize,
+}
+
+/// Everything about a run but its values.
+#[derive(Clone, Debug, Serialize)]
+pub struct RunRecord {
+    /// Version of this program.
+    pub version: &'static str,
+    /// Version of wgpu it was built with.
+    pub wgpu_version: &'static str,
+    /// Graph name as given.
+    pub graph: String,
+    /// Stable number of the resolved graph: nodes, passes, parameters.
+    pub graph_hash: String,
+    /// Picture width and height, pixels.
+    pub size: [usize; 2],
+    /// Where it ran.
+    pub device: DeviceRecord,
+    /// The scene.
+    pub scene: SceneRecord,
+    /// What `choose` could ask.
+    pub facts: Facts,
+    /// Nodes of the file that did not run, with the reason.
+    pub left_out: Vec<(String, String)>,
+    /// Remarks on scene, view and light.
+    pub notes: Vec<String>,
+    /// Nodes.
+    pub nodes: Vec<NodeSummary>,
+    /// Whole runs, milliseconds.
+    pub frame_millis: Spread,
+    /// Number of timed runs.
+    pub runs_count: usize,
+}
+
+/// The scene in a record.
+#[derive(Clone, Debug, Serialize)]
+pub struct SceneRecord {
+    /// As given on the command line.
+    pub name: String,
+    /// Name of the view.
+    pub view: String,
+    /// Triangles.
+    pub triangles_count: usize,
+    /// Connected parts.
+    pub parts_count: usize,
+    /// Closed parts.
+    pub closed_parts_count: usize,
+    /// Smallest and largest corner coordinates.
+    pub bounds: Option<[[f32; 3]; 2]>,
+    /// Camera position.
+    pub eye: [f32; 3],
+    /// Light position.
+    pub light: [f32; 3],
+    /// Light samples.
+    pub light_samples_count: usize,
+}
+
+/// A node in a record: its times as a spread.
+#[derive(Clone, Debug, Serialize)]
+pub struct NodeSummary {
+    /// What ran and what it counted.
+    #[serde(flatten)]
+    pub node: NodeRecord,
+    /// Its times.
+    pub millis_spread: Spread,
+}
+
+impl RunRecord {
+    /// Collects the record of a finished run.
+    pub fn new(plan: &Plan, job: &Job, device: DeviceRecord, outcome: &Outcome) -> Self {
+        let nodes = outcome.nodes.iter().map(|node| NodeSummary { millis_spread: Spread::of(&node.millis), node: node.clone() });
+        Self {
+            version: env!("CARGO_PKG_VERSION"),
+            wgpu_version: WGPU_VERSION,
+            graph: plan.name.clone(),
+            graph_hash: graph_hash(plan),
+            size: job.image,
+            device,
+            scene: SceneRecord {
+                name: job.scene_spec.clone(),
+                view: job.camera.name.clone(),
+                triangles_count: job.scene.triangle_count(),
+                parts_count: job.scene.parts_count,
+                closed_parts_count: job.scene.closed_parts_count,
+                bounds: job.scene.bounds(),
+                eye: job.camera.eye,
+                light: job.light.position,
+                light_samples_count: job.samples.len(),
+            },
+            facts: job.facts.clone(),
+            left_out: plan.left_out.clone(),
+            notes: job.notes.clone(),
+            nodes: nodes.collect(),
+            frame_millis: Spread::of(&outcome.frames_millis),
+            runs_count: outcome.frames_millis.len(),
+        }
+    }
+}
+
+/// Major version this program is built with.
+pub const WGPU_VERSION: &str = "30";
+
+/// FNV-1a over nodes, passes, parameters, backends and wiring of a plan: equal graphs have equal numbers on every machine.
+pub fn graph_hash(plan: &Plan) -> String {
+    let mut text = String::new();
+    for node in &plan.nodes {
+        let wires: Vec<_> = node.inputs.iter().map(|(port, slot)| (port, &plan.slots[*slot].name)).collect();
+        text.push_str(&format!("{} {:?} {:?} {:?} {wires:?}\n", node.id, node.pass, node.params.0, node.on));
+    }
+    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+    format!("{hash:016x}")
+}
