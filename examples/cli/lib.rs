@@ -5,6 +5,7 @@ pub mod args;
 pub mod commands;
 pub mod dump;
 pub mod engine;
+pub mod graph_choice;
 pub mod job;
 pub mod npy;
 pub mod outcome;

@@ -1,0 +1,9 @@
+//! One file a subcommand. Each returns what to print and the exit status; only `main` prints.
+
+pub mod check;
+pub mod export;
+pub mod graph;
+pub mod passes;
+pub mod render;
+pub mod scenes;
+pub mod verify;

@@ -1,0 +1,186 @@
+//! Scene, camera, light and view-samples as the command line names them, ready as graph inputs.
+
+use crate::args::SceneChoice;
+use crate::{npy, usage_problem};
+use shadowgraph_core::array::Array;
+use shadowgraph_core::facts::Facts;
+use shadowgraph_core::input;
+use shadowgraph_core::problem::{Kind, Problem};
+use shadowgraph_core::scene::{Camera, Light, Scene};
+use shadowgraph_scenes::View;
+use std::path::Path;
+
+/// Everything a graph is run on.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// The scene as named on the command line.
+    pub scene_spec: String,
+    /// The scene.
+    pub scene: Scene,
+    /// The camera.
+    pub camera: Camera,
+    /// The light.
+    pub light: Light,
+    /// Light samples: the light's centre for hard shadows.
+    pub samples: Vec<[f32; 3]>,
+    /// Picture width and height, pixels.
+    pub image: [usize; 2],
+    /// What `choose` may ask.
+    pub facts: Facts,
+    /// Remarks for the record.
+    pub notes: Vec<String>,
+    /// Imported view-samples, if any.
+    imports: Vec<(String, Array)>,
+}
+
+impl Job {
+    /// Loads scene and view, and applies the command line's overrides.
+    ///
+    /// # Errors
+    /// Scene or views cannot be loaded, a flag cannot be understood, imported view-samples do not fit.
+    pub fn load(choice: &SceneChoice) -> Result<Self, Problem> {
+        let scene = shadowgraph_scenes::load(&choice.scene)?;
+        let view = shadowgraph_scenes::choose_view(&scene, &choice.scene, choice.views.as_deref(), choice.view.as_deref())?;
+        Self::with_view(scene, view, choice)
+    }
+
+    /// The same scene through another view.
+    ///
+    /// # Errors
+    /// As [`Job::load`].
+    pub fn with_view(scene: Scene, view: View, choice: &SceneChoice) -> Result<Self, Problem> {
+        let View { mut camera, mut light, note } = view;
+        if let Some(text) = &choice.eye {
+            camera.eye = point("--eye", text)?;
+        }
+        if let Some(text) = &choice.target {
+            camera.target = point("--target", text)?;
+        }
+        if let Some(degrees) = choice.fov {
+            if !(degrees > 0.0 && degrees < 180.0) {
+                return Err(usage_problem("--fov is out of range").expected("degrees in 0..180").found(degrees.to_string()));
+            }
+            camera.fov_y = degrees.to_radians();
+        }
+        if let Some(text) = &choice.light {
+            light.position = point("--light", text)?;
+        }
+        check_camera(&camera)?;
+        let mut image = size(&choice.size)?;
+        let mut imports = Vec::new();
+        if let Some(folder) = &choice.view_samples {
+            imports = read_view_samples(folder)?;
+            image = fitting_image(image, &imports);
+        }
+        let samples = vec![light.position];
+        let facts = input::facts(&scene, &samples, !imports.is_empty());
+        let mut notes = scene.notes.clone();
+        notes.extend(note);
+        Ok(Self { scene_spec: choice.scene.clone(), scene, camera, light, samples, image, facts, notes, imports })
+    }
+
+    /// Graph inputs by name.
+    pub fn inputs(&self) -> Vec<(String, Array)> {
+        let arrays = input::scene_arrays(&self.scene, &self.camera, self.image, &self.light, &self.samples);
+        let mut arrays: Vec<_> = arrays.into_iter().map(|(name, array)| (name.to_string(), array)).collect();
+        arrays.extend(self.imports.iter().cloned());
+        arrays
+    }
+
+    /// The same job on view-samples of an earlier run.
+    pub fn importing(&self, imports: Vec<(String, Array)>) -> Self {
+        let facts = Facts { view_samples_imported: true, ..self.facts.clone() };
+        Self { imports, facts, ..self.clone() }
+    }
+}
+
+fn check_camera(camera: &Camera) -> Result<(), Problem> {
+    let [eye, target, up] = [camera.eye, camera.target, camera.up].map(|v| glam_free(v));
+    let forward = [0, 1, 2].map(|k| target[k] - eye[k]);
+    let cross = [
+        forward[1] * up[2] - forward[2] * up[1],
+        forward[2] * up[0] - forward[0] * up[2],
+        forward[0] * up[1] - forward[1] * up[0],
+    ];
+    let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length(cross) > 1e-9 * length(forward) * length(up) {
+        return Ok(());
+    }
+    Err(usage_problem("the camera has no direction")
+        .expected("a target that differs from the eye, and an up vector not parallel to the view direction")
+        .found(format!("eye {:?}, target {:?}, up {:?}", camera.eye, camera.target, camera.up)))
+}
+
+fn glam_free(v: [f32; 3]) -> [f64; 3] {
+    v.map(f64::from)
+}
+
+fn point(flag: &str, text: &str) -> Result<[f32; 3], Problem> {
+    let numbers: Vec<f32> = text.split(',').filter_map(|part| part.trim().parse().ok()).filter(|x: &f32| x.is_finite()).collect();
+    <[f32; 3]>::try_from(numbers)
+        .map_err(|_| usage_problem(format!("{flag} is not a point")).expected("three finite numbers X,Y,Z").found(text))
+}
+
+/// Width and height, each 1 to 16,384.
+fn size(text: &str) -> Result<[usize; 2], Problem> {
+    let sides: Vec<usize> = text.split('x').filter_map(|part| part.trim().parse().ok()).collect();
+    match sides.as_slice() {
+        [width, height] if (1..=16_384).contains(width) && (1..=16_384).contains(height) => Ok([*width, *height]),
+        _ => Err(usage_problem("--size is not a picture size").expected("WIDTHxHEIGHT, each 1..=16384").found(text)),
+    }
+}
+
+/// `DIR/{position,normal,triangle,pixel}.npy`, or the names that a dump gives them.
+fn read_view_samples(folder: &Path) -> Result<Vec<(String, Array)>, Problem> {
+    let path = |port: &str| {
+        let plain = folder.join(format!("{port}.npy"));
+        if plain.exists() { plain } else { folder.join(format!("view_samples.{port}.npy")) }
+    };
+    let position = npy::read_f32(&path("position"), 3)?;
+    let rows = position.dim(0);
+    let normal = npy::read_f32(&path("normal"), 3)?;
+    let triangle = npy::read_u32(&path("triangle"))?;
+    let pixel_path = path("pixel");
+    let pixel =
+        if pixel_path.exists() { npy::read_u32(&pixel_path)? } else { Array::u32([rows], (0..rows as u32).collect()) };
+    for (name, array) in [("normal", &normal), ("triangle", &triangle), ("pixel", &pixel)] {
+        if array.dim(0) != rows {
+            return Err(Problem::new(Kind::BadValue, format!("{name}.npy and position.npy differ in rows"))
+                .expected(rows.to_string())
+                .found(array.dim(0).to_string()));
+        }
+    }
+    Ok([
+        (input::IMPORTED_POSITION, position),
+        (input::IMPORTED_NORMAL, normal),
+        (input::IMPORTED_TRIANGLE, triangle),
+        (input::IMPORTED_PIXEL, pixel),
+    ]
+    .into_iter()
+    .map(|(port, array)| (port.name.to_string(), array))
+    .collect())
+}
+
+/// The picture must hold every imported pixel; it grows downwards where it does not.
+fn fitting_image([width, height]: [usize; 2], imports: &[(String, Array)]) -> [usize; 2] {
+    let pixels = imports.iter().find(|(name, _)| name == input::IMPORTED_PIXEL.name);
+    let last = pixels.and_then(|(_, array)| array.as_u32().iter().max().copied()).unwrap_or(0) as usize;
+    [width, height.max(last / width + 1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_and_points_are_checked() {
+        assert_eq!(size("640x480").unwrap(), [640, 480]);
+        for wrong in ["640", "0x5", "5x99999", "axb", "1x2x3"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(point("--eye", "1, -2,3.5").unwrap(), [1.0, -2.0, 3.5]);
+        let problem = point("--eye", "1,2").unwrap_err();
+        assert_eq!(problem.to_string(), "command line: --eye is not a point; expected three finite numbers X,Y,Z; found 1,2");
+        assert!(point("--eye", "1,2,NaN").is_err());
+    }
+}
