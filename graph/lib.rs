@@ -22,6 +22,7 @@ mod tests;
 
 pub use builtin::{builtin, builtin_names};
 pub use load::{Graph, Loader, load};
+pub use names::nearest;
 pub use overrides::{Keep, Overrides};
 pub use plan::plan;
 pub use schema::VERSION;

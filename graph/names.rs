@@ -6,7 +6,7 @@ const MAX_COMPARED: usize = 64;
 const MAX_LISTED: usize = 16;
 
 /// The nearest name, if it is near enough to be what was meant. Of equally near ones the first.
-pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > MAX_COMPARED {
         return None;
     }

@@ -37,7 +37,7 @@ fn chosen(catalogue: &Catalogue, name: Option<&str>) -> Result<Vec<&'static Pass
     if !found.is_empty() {
         return Ok(found);
     }
-    let names = catalogue.passes().flat_map(|pass| [pass.name.to_string(), pass.stage.name.to_string(), full(pass)]);
+    let names = catalogue.passes().flat_map(|pass| [pass.name, pass.stage.name]);
     let nearest = shadowgraph_graph::nearest(name, names);
     let problem = Problem::new(Kind::UnknownName, "no stage or pass has this name").found(name);
     Err(match nearest {
