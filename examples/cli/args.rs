@@ -165,7 +165,7 @@ pub struct VerifyArgs {
     pub accept: f64,
     /// Half width of the contact band, in units of the last place of the coordinates involved
     #[arg(long, default_value_t = 4.0, value_name = "ULPS")]
-    pub contact_ulps: f64,
+    pub contact_ulps: f32,
     /// Write a picture of where the wrong bits are as DIR/wrong.png
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -3,6 +3,7 @@
 use crate::args::{GraphChoice, VerifyArgs};
 use crate::engine::Machine;
 use crate::job::Job;
+use crate::outcome::Outcome;
 use crate::report::{Bar, align_right, table};
 use crate::verify::{Answer, Verdict, judge};
 use crate::{file_problem, graph_choice, picture};
@@ -12,16 +13,22 @@ use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::plan::{Backend, Plan};
 use shadowgraph_core::problem::Problems;
 use shadowgraph_graph::Keep;
+use shadowgraph_passes::shared::contact::contact_band;
 use std::path::Path;
 
 /// One view's verdict.
 #[derive(Debug, Serialize)]
-struct Row {
-    view: String,
-    backend: Backend,
-    millis: f64,
-    truth_millis: f64,
-    verdict: Verdict,
+pub struct Row {
+    /// Name of the view.
+    pub view: String,
+    /// Where nodes ran that were not pinned.
+    pub backend: Backend,
+    /// Time of the graph, milliseconds.
+    pub millis: f64,
+    /// Time of the truth, milliseconds.
+    pub truth_millis: f64,
+    /// What differs.
+    pub verdict: Verdict,
 }
 
 /// What to print, and whether every view is within the accepted share.
@@ -56,7 +63,17 @@ pub fn text(catalogue: &Catalogue, args: &VerifyArgs) -> Result<(String, bool), 
     Ok((text, is_right))
 }
 
-fn verify(catalogue: &Catalogue, args: &VerifyArgs, machine: &mut Machine, view: String, job: &Job) -> Result<Row, Problems> {
+/// Runs the graph and the truth on one job.
+///
+/// # Errors
+/// What is wrong with the graph; what a node reports.
+pub fn verify(
+    catalogue: &Catalogue,
+    args: &VerifyArgs,
+    machine: &mut Machine,
+    view: String,
+    job: &Job,
+) -> Result<Row, Problems> {
     let plan = graph_choice::plan(&args.graph, catalogue, Some(&job.facts), machine.default_backend, Keep::AllLivePorts)?;
     machine.ready_for(&plan)?;
     let bar = Bar::new(args.run.quiet);
@@ -71,13 +88,16 @@ fn verify(catalogue: &Catalogue, args: &VerifyArgs, machine: &mut Machine, view:
     let truth_outcome = machine.run(&truth_plan, &truth_job, 1, &progress)?;
     let truth = Answer::of(&truth_plan, &truth_outcome)?;
 
+    let casts = caster_state(&truth_plan, &truth_outcome, job.scene.triangle_count());
     let contact = |rows: &[u32]| {
-        shadowgraph_passes::shared::contact::contact_band(
-            rows,
+        let rows: Vec<usize> = rows.iter().map(|row| *row as usize).collect();
+        contact_band(
+            &job.scene.positions,
+            &casts,
+            &job.samples,
             answer.position.as_vec3(),
             answer.triangle.as_u32(),
-            &job.scene.positions,
-            &job.samples,
+            &rows,
             args.contact_ulps,
         )
     };
@@ -95,6 +115,12 @@ fn verify(catalogue: &Catalogue, args: &VerifyArgs, machine: &mut Machine, view:
         truth_millis: truth_outcome.frames_millis.iter().sum(),
         verdict,
     })
+}
+
+/// Which triangles cast in the truth; all where it does not say.
+fn caster_state(plan: &Plan, outcome: &Outcome, triangles: usize) -> Vec<u32> {
+    let slot = plan.slots.iter().position(|slot| slot.port.quantity == "caster_state");
+    slot.and_then(|slot| outcome.values.try_get(slot)).map_or_else(|| vec![1; triangles], |array| array.as_u32().to_vec())
 }
 
 fn ran_on(plan: &Plan) -> Backend {
