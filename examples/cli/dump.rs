@@ -31,8 +31,13 @@ pub fn write(directory: &Path, plan: &Plan, inputs: &[(String, Array)], outcome:
         let node = &plan.nodes[*node];
         let port = &slot.port;
         let array = rows.trim(plan, outcome, slot, array);
-        let entry =
-            Entry { node: &node.id, stage: node.pass.stage.name, port: port.name, unit: port.unit, space: json!(port.space) };
+        let entry = Entry {
+            node: &node.id,
+            stage: node.pass.stage.name,
+            port: port.name,
+            unit: port.unit,
+            space: json!(port.space),
+        };
         save(directory, &mut index, entry, &array)?;
     }
     let path = directory.join("index.json");
@@ -50,8 +55,11 @@ struct Entry<'a> {
 }
 
 fn save(directory: &Path, index: &mut Vec<Value>, entry: Entry, array: &Array) -> Result<(), Problem> {
-    let file =
-        if entry.node.is_empty() { format!("{}.npy", entry.port) } else { format!("{}.{}.npy", entry.node, entry.port) };
+    let file = if entry.node.is_empty() {
+        format!("{}.npy", entry.port)
+    } else {
+        format!("{}.{}.npy", entry.node, entry.port)
+    };
     npy::write(&directory.join(&file), array)?;
     index.push(json!({
         "file": file,

@@ -30,13 +30,17 @@ impl Machine {
         let cpu = |reason: &str| Self { session: None, default_backend: Backend::Cpu, reason: reason.into() };
         match choice {
             BackendChoice::Cpu => Ok(cpu("asked for")),
-            BackendChoice::Wgpu => {
-                Ok(Self { session: Some(Session::new(&Wanted::default())?), default_backend: Backend::Wgpu, reason: "asked for".into() })
-            }
+            BackendChoice::Wgpu => Ok(Self {
+                session: Some(Session::new(&Wanted::default())?),
+                default_backend: Backend::Wgpu,
+                reason: "asked for".into(),
+            }),
             BackendChoice::Auto => match Session::new(&Wanted::default()) {
-                Ok(session) if session.facts().device_type != "cpu" => {
-                    Ok(Self { session: Some(session), default_backend: Backend::Wgpu, reason: "a hardware adapter exists".into() })
-                }
+                Ok(session) if session.facts().device_type != "cpu" => Ok(Self {
+                    session: Some(session),
+                    default_backend: Backend::Wgpu,
+                    reason: "a hardware adapter exists".into(),
+                }),
                 Ok(session) => Ok(cpu(&format!(
                     "the only adapter is a software one, {}; --backend wgpu uses it",
                     session.facts().name
@@ -122,7 +126,8 @@ impl Machine {
 
     fn run_wgpu(&self, plan: &Plan, range: Range<usize>, image: [usize; 2], store: &mut Store, repeat: u32) -> Stretch {
         let Some(session) = &self.session else {
-            return Err(Problem::new(Kind::Device, "a node is pinned to wgpu but there is no device").remedy("use --backend wgpu"));
+            return Err(Problem::new(Kind::Device, "a node is pinned to wgpu but there is no device")
+                .remedy("use --backend wgpu"));
         };
         let options = Options { warm_up: u32::from(repeat > 1), frames: repeat, ..Options::default() };
         let ran = session.run_nodes(plan, range, &|slot| store.try_get(slot), image, &options)?;
@@ -159,7 +164,13 @@ fn run_cpu(plan: &Plan, range: Range<usize>, image: [usize; 2], store: &mut Stor
     for node in range {
         progress(&plan.nodes[node].id, 0, 1);
         let run = shadowgraph_cpu::run(plan, node, image, store, progress)?;
-        runs.push(Ran { node, millis: Some(run.millis), bytes: run.bytes, clock: "host clock around the function", counts: run.counts });
+        runs.push(Ran {
+            node,
+            millis: Some(run.millis),
+            bytes: run.bytes,
+            clock: "host clock around the function",
+            counts: run.counts,
+        });
     }
     Ok((start.elapsed().as_secs_f64() * 1e3, runs))
 }
@@ -194,7 +205,9 @@ fn node_records(plan: &Plan) -> Vec<NodeRecord> {
 fn supply(plan: &Plan, inputs: &[(String, Array)], store: &mut Store) -> Result<(), Problem> {
     for (id, slot) in plan.inputs() {
         let Some((_, array)) = inputs.iter().find(|(name, _)| *name == slot.name) else {
-            return Err(Problem::new(Kind::Missing, "graph input is not supplied").port(&slot.name).expected(slot.port.type_text()));
+            return Err(Problem::new(Kind::Missing, "graph input is not supplied")
+                .port(&slot.name)
+                .expected(slot.port.type_text()));
         };
         store.put(id, array.clone());
     }

@@ -40,7 +40,8 @@ impl Job {
     /// Scene or views cannot be loaded, a flag cannot be understood, imported view-samples do not fit.
     pub fn load(choice: &SceneChoice) -> Result<Self, Problem> {
         let scene = shadowgraph_scenes::load(&choice.scene)?;
-        let view = shadowgraph_scenes::choose_view(&scene, &choice.scene, choice.views.as_deref(), choice.view.as_deref())?;
+        let view =
+            shadowgraph_scenes::choose_view(&scene, &choice.scene, choice.views.as_deref(), choice.view.as_deref())?;
         Self::with_view(scene, view, choice)
     }
 
@@ -58,7 +59,9 @@ impl Job {
         }
         if let Some(degrees) = choice.fov {
             if !(degrees > 0.0 && degrees < 180.0) {
-                return Err(usage_problem("--fov is out of range").expected("degrees in 0..180").found(degrees.to_string()));
+                return Err(usage_problem("--fov is out of range")
+                    .expected("degrees in 0..180")
+                    .found(degrees.to_string()));
             }
             camera.fov_y = degrees.to_radians();
         }
@@ -95,7 +98,7 @@ impl Job {
 }
 
 fn check_camera(camera: &Camera) -> Result<(), Problem> {
-    let [eye, target, up] = [camera.eye, camera.target, camera.up].map(|v| glam_free(v));
+    let [eye, target, up] = [camera.eye, camera.target, camera.up].map(wide);
     let forward = [0, 1, 2].map(|k| target[k] - eye[k]);
     let cross = [
         forward[1] * up[2] - forward[2] * up[1],
@@ -111,12 +114,13 @@ fn check_camera(camera: &Camera) -> Result<(), Problem> {
         .found(format!("eye {:?}, target {:?}, up {:?}", camera.eye, camera.target, camera.up)))
 }
 
-fn glam_free(v: [f32; 3]) -> [f64; 3] {
+fn wide(v: [f32; 3]) -> [f64; 3] {
     v.map(f64::from)
 }
 
 fn point(flag: &str, text: &str) -> Result<[f32; 3], Problem> {
-    let numbers: Vec<f32> = text.split(',').filter_map(|part| part.trim().parse().ok()).filter(|x: &f32| x.is_finite()).collect();
+    let numbers: Vec<f32> =
+        text.split(',').filter_map(|part| part.trim().parse().ok()).filter(|x: &f32| x.is_finite()).collect();
     <[f32; 3]>::try_from(numbers)
         .map_err(|_| usage_problem(format!("{flag} is not a point")).expected("three finite numbers X,Y,Z").found(text))
 }
@@ -180,7 +184,10 @@ mod tests {
         }
         assert_eq!(point("--eye", "1, -2,3.5").unwrap(), [1.0, -2.0, 3.5]);
         let problem = point("--eye", "1,2").unwrap_err();
-        assert_eq!(problem.to_string(), "command line: --eye is not a point; expected three finite numbers X,Y,Z; found 1,2");
+        assert_eq!(
+            problem.to_string(),
+            "command line: --eye is not a point; expected three finite numbers X,Y,Z; found 1,2"
+        );
         assert!(point("--eye", "1,2,NaN").is_err());
     }
 }

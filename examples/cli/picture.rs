@@ -28,7 +28,8 @@ pub fn write_exr(path: &Path, image: &Array) -> Result<(), Problem> {
 /// # Errors
 /// The file cannot be written.
 pub fn write_png(path: &Path, image: &Array) -> Result<(), Problem> {
-    let bytes: Vec<u8> = image.as_f32().chunks_exact(4).flat_map(|texel| [texel[0], texel[1], texel[2]]).map(srgb).collect();
+    let bytes: Vec<u8> =
+        image.as_f32().chunks_exact(4).flat_map(|texel| [texel[0], texel[1], texel[2]]).map(srgb).collect();
     write_rgb(path, image.dim(1), image.dim(0), &bytes)
 }
 

@@ -90,7 +90,10 @@ pub struct NodeSummary {
 impl RunRecord {
     /// Collects the record of a finished run.
     pub fn new(plan: &Plan, job: &Job, device: DeviceRecord, outcome: &Outcome) -> Self {
-        let nodes = outcome.nodes.iter().map(|node| NodeSummary { millis_spread: Spread::of(&node.millis), node: node.clone() });
+        let nodes = outcome
+            .nodes
+            .iter()
+            .map(|node| NodeSummary { millis_spread: Spread::of(&node.millis), node: node.clone() });
         Self {
             version: env!("CARGO_PKG_VERSION"),
             wgpu_version: WGPU_VERSION,
@@ -129,6 +132,8 @@ pub fn graph_hash(plan: &Plan) -> String {
         let wires: Vec<_> = node.inputs.iter().map(|(port, slot)| (port, &plan.slots[*slot].name)).collect();
         text.push_str(&format!("{} {:?} {:?} {:?} {wires:?}\n", node.id, node.pass, node.params.0, node.on));
     }
-    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+    let hash = text
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
     format!("{hash:016x}")
 }

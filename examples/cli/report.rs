@@ -8,7 +8,10 @@ use std::time::Duration;
 /// A table with a header.
 pub fn table(header: &[&str]) -> Table {
     let mut table = Table::new();
-    table.load_preset(UTF8_BORDERS_ONLY).set_content_arrangement(ContentArrangement::Disabled).set_header(header.to_vec());
+    table
+        .load_preset(UTF8_BORDERS_ONLY)
+        .set_content_arrangement(ContentArrangement::Disabled)
+        .set_header(header.to_vec());
     table
 }
 
@@ -52,7 +55,10 @@ pub fn run_text(record: &RunRecord) -> String {
     let device = &record.device;
     text.push_str(&match device.backend {
         "cpu" => format!("CPU backend, {} threads ({})\n", device.threads, device.reason),
-        _ => format!("wgpu backend, {} [{}], {} ({})\n", device.adapter, device.adapter_type, device.driver, device.reason),
+        _ => format!(
+            "wgpu backend, {} [{}], {} ({})\n",
+            device.adapter, device.adapter_type, device.driver, device.reason
+        ),
     });
     text.push_str(&nodes_table(record).to_string());
     text.push('\n');
@@ -80,8 +86,11 @@ fn nodes_table(record: &RunRecord) -> Table {
     for node in &record.nodes {
         let share = if total > 0.0 { 100.0 * node.millis_spread.median / total } else { 0.0 };
         let counts: Vec<String> = node.node.counts.iter().map(|(name, count)| format!("{name} {count}")).collect();
-        let pass =
-            if node.node.stage == node.node.node { node.node.pass.into() } else { format!("{}/{}", node.node.stage, node.node.pass) };
+        let pass = if node.node.stage == node.node.node {
+            node.node.pass.into()
+        } else {
+            format!("{}/{}", node.node.stage, node.node.pass)
+        };
         table.add_row([
             node.node.node.clone(),
             pass,

@@ -150,7 +150,11 @@ pub fn judge(
         view_samples_count: all.rows_count,
         contact_count: contact.iter().filter(|contact| **contact).count() as u64,
         wrong_outside_count: wrong_outside.wrong_count(),
-        wrong_outside_share: if all.bits_count == 0 { 0.0 } else { wrong_outside.wrong_count() as f64 / all.bits_count as f64 },
+        wrong_outside_share: if all.bits_count == 0 {
+            0.0
+        } else {
+            wrong_outside.wrong_count() as f64 / all.bits_count as f64
+        },
         facing_away_not_compared_count: (0..triangles.len()).filter(|row| tests_all(*row)).count() as u64,
         wrong: wrong.collect(),
         wrong_rows: wrong_outside.wrong_rows,

@@ -2,12 +2,12 @@
 
 pub mod bvh;
 pub mod camera;
+pub mod contact;
 pub mod footprint;
 pub mod hard;
 #[cfg(test)]
 pub mod hard_scenes;
 pub mod light_fit;
-pub mod contact;
 pub mod light_frame;
 pub mod predicate;
 pub mod pyramid;

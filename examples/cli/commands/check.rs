@@ -14,7 +14,12 @@ pub fn text(catalogue: &Catalogue, args: &CheckArgs) -> (String, bool) {
         match problems_of(catalogue, name) {
             Ok(line) => text.push_str(&line),
             Err(Problems(problems)) => {
-                text.push_str(&format!("{}\n{name}: {} problem{}\n", Problems(problems.clone()), problems.len(), if problems.len() == 1 { "" } else { "s" }));
+                text.push_str(&format!(
+                    "{}\n{name}: {} problem{}\n",
+                    Problems(problems.clone()),
+                    problems.len(),
+                    if problems.len() == 1 { "" } else { "s" }
+                ));
                 all.extend(problems);
             }
         }

@@ -23,7 +23,7 @@ pub fn text(catalogue: &Catalogue, args: &GraphArgs) -> Result<String, Problems>
     let backend = if args.backend == BackendChoice::Wgpu { Backend::Wgpu } else { Backend::Cpu };
     let facts = facts(&args.fact)?;
     let plan = plan(&args.graph, catalogue, Some(&facts), backend, Keep::OutputsOnly)?;
-    Ok(format!("{:#?}", plan.steps))
+    Ok(format!("{:#?}\n", plan.steps))
 }
 
 fn list() -> Result<String, Problems> {

@@ -63,7 +63,9 @@ fn overview(catalogue: &Catalogue) -> String {
             table.add_row([if row == 0 { stage.name } else { "" }, pass.name, backends(pass), pass.doc]);
         }
     }
-    format!("{table}\n`shadowgraph passes NAME` shows ports and parameters; the first pass of a stage is its default.\n")
+    format!(
+        "{table}\n`shadowgraph passes NAME` shows ports and parameters; the first pass of a stage is its default.\n"
+    )
 }
 
 fn chosen_text(catalogue: &Catalogue, passes: &[&'static Pass]) -> String {
@@ -98,7 +100,13 @@ fn chosen_text(catalogue: &Catalogue, passes: &[&'static Pass]) -> String {
 fn ports_table(stage: &Stage) -> comfy_table::Table {
     let mut table = table(&["port", "way", "type", "unit", "what it is"]);
     for port in stage.ports {
-        table.add_row([port.name.to_string(), way(port).to_string(), port.type_text(), port.unit.to_string(), port.doc.to_string()]);
+        table.add_row([
+            port.name.to_string(),
+            way(port).to_string(),
+            port.type_text(),
+            port.unit.to_string(),
+            port.doc.to_string(),
+        ]);
     }
     table
 }
@@ -106,7 +114,13 @@ fn ports_table(stage: &Stage) -> comfy_table::Table {
 fn params_table(params: &[ParamSpec]) -> comfy_table::Table {
     let mut table = table(&["parameter", "allowed", "default", "unit", "what it does"]);
     for spec in params {
-        table.add_row([spec.name.into(), spec.range.text(), spec.range.default_value().text(), spec.unit.into(), spec.doc.to_string()]);
+        table.add_row([
+            spec.name.into(),
+            spec.range.text(),
+            spec.range.default_value().text(),
+            spec.unit.into(),
+            spec.doc.to_string(),
+        ]);
     }
     table
 }
@@ -137,9 +151,21 @@ pub fn markdown(catalogue: &Catalogue) -> String {
     );
     let cell = |text: &str| text.replace('|', "\\|");
     for stage in catalogue.stages() {
-        let _ = write!(text, "\n## {}\n\n{}\n\n| port | way | type | unit | what it is |\n|---|---|---|---|---|\n", stage.name, stage.doc);
+        let _ = write!(
+            text,
+            "\n## {}\n\n{}\n\n| port | way | type | unit | what it is |\n|---|---|---|---|---|\n",
+            stage.name, stage.doc
+        );
         for port in stage.ports {
-            let _ = writeln!(text, "| `{}` | {} | {} | {} | {} |", port.name, way(port), port.type_text(), port.unit, cell(port.doc));
+            let _ = writeln!(
+                text,
+                "| `{}` | {} | {} | {} | {} |",
+                port.name,
+                way(port),
+                port.type_text(),
+                port.unit,
+                cell(port.doc)
+            );
         }
         for pass in catalogue.passes().filter(|pass| pass.stage.name == stage.name) {
             let _ = write!(text, "\n### {}/{}\n\n{}\n\n", stage.name, pass.name, pass.doc);
@@ -160,7 +186,14 @@ pub fn markdown(catalogue: &Catalogue) -> String {
             }
             for spec in pass.params {
                 let default = spec.range.default_value().text();
-                let _ = writeln!(text, "| `{}` | {} | {default} | {} | {} |", spec.name, spec.range.text(), spec.unit, cell(spec.doc));
+                let _ = writeln!(
+                    text,
+                    "| `{}` | {} | {default} | {} | {} |",
+                    spec.name,
+                    spec.range.text(),
+                    spec.unit,
+                    cell(spec.doc)
+                );
             }
         }
     }

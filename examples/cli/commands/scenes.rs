@@ -23,7 +23,8 @@ fn list(as_json: bool) -> String {
     }
     let mut table = table(&["scene", "parameters", "what it is"]);
     for scene in scenes {
-        let params: Vec<String> = scene.params.iter().map(|param| format!("{}={}", param.name, param.range.default_value().text())).collect();
+        let params: Vec<String> =
+            scene.params.iter().map(|param| format!("{}={}", param.name, param.range.default_value().text())).collect();
         table.add_row([format!("builtin:{}", scene.name), params.join(" "), scene.doc.to_string()]);
     }
     format!("{table}\nParameters follow a question mark: builtin:random-triangles?count=10000&seed=2\n")

@@ -42,8 +42,12 @@ pub fn text(catalogue: &Catalogue, args: &VerifyArgs) -> Result<(String, bool), 
         for name in shadowgraph_scenes::view_names(&first.scene, &args.scene.scene, args.scene.views.as_deref())? {
             let mut choice = args.scene.clone();
             choice.view = Some(name.clone());
-            let view =
-                shadowgraph_scenes::choose_view(&first.scene, &choice.scene, choice.views.as_deref(), choice.view.as_deref())?;
+            let view = shadowgraph_scenes::choose_view(
+                &first.scene,
+                &choice.scene,
+                choice.views.as_deref(),
+                choice.view.as_deref(),
+            )?;
             jobs.push((name, Job::with_view(first.scene.clone(), view, &choice)?));
         }
     } else {
@@ -74,7 +78,8 @@ pub fn verify(
     view: String,
     job: &Job,
 ) -> Result<Row, Problems> {
-    let plan = graph_choice::plan(&args.graph, catalogue, Some(&job.facts), machine.default_backend, Keep::AllLivePorts)?;
+    let plan =
+        graph_choice::plan(&args.graph, catalogue, Some(&job.facts), machine.default_backend, Keep::AllLivePorts)?;
     machine.ready_for(&plan)?;
     let bar = Bar::new(args.run.quiet);
     let progress = |node: &str, done, total| bar.set(node, done, total);
@@ -84,7 +89,8 @@ pub fn verify(
     let truth_choice =
         GraphChoice { graph: args.truth.clone(), swap: Vec::new(), set: Vec::new(), on: Vec::new(), no_alias: false };
     let truth_job = job.importing(answer.imports());
-    let truth_plan = graph_choice::plan(&truth_choice, catalogue, Some(&truth_job.facts), Backend::Cpu, Keep::AllLivePorts)?;
+    let truth_plan =
+        graph_choice::plan(&truth_choice, catalogue, Some(&truth_job.facts), Backend::Cpu, Keep::AllLivePorts)?;
     let truth_outcome = machine.run(&truth_plan, &truth_job, 1, &progress)?;
     let truth = Answer::of(&truth_plan, &truth_outcome)?;
 
@@ -101,7 +107,8 @@ pub fn verify(
             args.contact_ulps,
         )
     };
-    let filters_facing = plan.nodes.iter().any(|node| node.pass.stage.name == "sample_filter" && node.pass.name != "all");
+    let filters_facing =
+        plan.nodes.iter().any(|node| node.pass.stage.name == "sample_filter" && node.pass.name != "all");
     let verdict = judge(&answer, truth.mask, truth.state, job.samples.len(), filters_facing, job.image[0], contact);
     if let Some(folder) = &args.out {
         std::fs::create_dir_all(folder).map_err(|error| file_problem(folder, &error))?;
@@ -120,7 +127,8 @@ pub fn verify(
 /// Which triangles cast in the truth; all where it does not say.
 fn caster_state(plan: &Plan, outcome: &Outcome, triangles: usize) -> Vec<u32> {
     let slot = plan.slots.iter().position(|slot| slot.port.quantity == "caster_state");
-    slot.and_then(|slot| outcome.values.try_get(slot)).map_or_else(|| vec![1; triangles], |array| array.as_u32().to_vec())
+    slot.and_then(|slot| outcome.values.try_get(slot))
+        .map_or_else(|| vec![1; triangles], |array| array.as_u32().to_vec())
 }
 
 fn ran_on(plan: &Plan) -> Backend {
@@ -157,7 +165,18 @@ fn write_wrong(
 }
 
 fn rows_text(args: &VerifyArgs, rows: &[Row], is_right: bool) -> String {
-    let mut table = table(&["view", "on", "view-samples", "false shadow", "false lit", "in contact", "wrong outside", "share", "ms", "truth ms"]);
+    let mut table = table(&[
+        "view",
+        "on",
+        "view-samples",
+        "false shadow",
+        "false lit",
+        "in contact",
+        "wrong outside",
+        "share",
+        "ms",
+        "truth ms",
+    ]);
     for row in rows {
         let verdict = &row.verdict;
         table.add_row([
@@ -184,7 +203,10 @@ fn rows_text(args: &VerifyArgs, rows: &[Row], is_right: bool) -> String {
         }
         let skipped = row.verdict.facing_away_not_compared_count;
         if skipped > 0 {
-            text.push_str(&format!("{}: {skipped} view-samples face away and are tested all the same: not compared\n", row.view));
+            text.push_str(&format!(
+                "{}: {skipped} view-samples face away and are tested all the same: not compared\n",
+                row.view
+            ));
         }
     }
     text.push_str(if is_right { "right\n" } else { "WRONG: more bits differ than --accept allows\n" });
