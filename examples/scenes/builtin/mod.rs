@@ -3,9 +3,19 @@
 
 mod columns;
 mod ends;
+mod facets;
+mod grass;
+mod hairball;
+mod moving;
+mod plains;
 mod random_triangles;
+mod rooms;
 mod shapes;
+mod sheets;
 mod spec;
+mod thin;
+mod torus_knot;
+mod touching;
 
 use crate::soup::Soup;
 use shadowgraph_core::param::{ParamSpec, Params};
@@ -34,7 +44,37 @@ pub fn list() -> &'static [Builtin] {
     LIST
 }
 
-const LIST: &[Builtin] = &[columns::SCENE, random_triangles::SCENE, ends::EMPTY, ends::ONE_TRIANGLE];
+const LIST: &[Builtin] = &[
+    columns::SCENE,
+    torus_knot::SCENE,
+    random_triangles::SCENE,
+    hairball::SCENE,
+    grass::RING,
+    touching::CONTACT,
+    touching::ALIGNED,
+    touching::TWO_DEPTHS,
+    touching::HIDDEN,
+    plains::GRAZING,
+    plains::LONG_VIEW,
+    plains::ZOOM,
+    plains::LIST_OVERLOAD,
+    plains::FAR_LIGHT,
+    thin::SCENE,
+    sheets::OPEN,
+    sheets::NONMANIFOLD,
+    sheets::DEGENERATE,
+    sheets::TRANSPARENT,
+    rooms::LIGHT_INSIDE,
+    rooms::OMNI,
+    rooms::CAMERA_INSIDE,
+    facets::SELF,
+    facets::COPLANAR,
+    grass::LAWN,
+    moving::LIGHT,
+    moving::CAMERA,
+    ends::EMPTY,
+    ends::ONE_TRIANGLE,
+];
 
 /// Builds `NAME?param=value&..`.
 pub fn build(text: &str) -> Result<Scene, Problem> {
