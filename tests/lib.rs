@@ -1,1 +1,1 @@
-//! The suite lives in `main.rs`; this library target is empty.
+//! The suite is the test target `main.rs`; this library is empty so that the package has one.
