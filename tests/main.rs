@@ -1,5 +1,7 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
+mod gpu;
+mod suite;
 mod tidy;
 
 use libtest_mimic::{Arguments, Trial};
@@ -10,6 +12,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::from_args();
     let mut trials: Vec<Trial> = Vec::new();
     trials.extend(tidy::trials());
+    trials.extend(suite::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }
 
