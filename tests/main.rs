@@ -1,8 +1,14 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
+mod bench;
+mod docs;
 mod gpu;
+mod graphs;
+mod program;
 mod suite;
 mod tidy;
+mod truth;
+mod twins;
 
 use libtest_mimic::{Arguments, Trial};
 use std::path::{Path, PathBuf};
@@ -12,7 +18,13 @@ fn main() -> ExitCode {
     let arguments = Arguments::from_args();
     let mut trials: Vec<Trial> = Vec::new();
     trials.extend(tidy::trials());
+    trials.extend(docs::trials());
     trials.extend(suite::trials());
+    trials.extend(graphs::trials());
+    trials.extend(twins::controls());
+    trials.extend(twins::trials());
+    trials.extend(truth::trials());
+    trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }
 

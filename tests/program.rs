@@ -1,0 +1,133 @@
+//! The program as a user meets it: exit status, output for people and for scripts, files it writes.
+
+use crate::root;
+use libtest_mimic::{Failed, Trial};
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// All of them.
+pub fn trials() -> Vec<Trial> {
+    vec![
+        Trial::test("program/render_writes_pictures_and_says_what_each_node_cost", render),
+        Trial::test("program/dump_has_one_row_for_every_view_sample", dump),
+        Trial::test("program/dumped_view_samples_can_be_imported", import),
+        Trial::test("program/check_tells_every_mistake_and_fails", check),
+        Trial::test("program/a_wrong_flag_is_a_problem_with_a_remedy", wrong_flags),
+        Trial::test("program/the_record_is_json", json),
+    ]
+}
+
+/// The program, built by this test run.
+fn program(words: &[&str]) -> Result<Output, Failed> {
+    let mut path = std::env::current_exe().map_err(|error| error.to_string())?;
+    path.pop();
+    if path.ends_with("deps") {
+        path.pop();
+    }
+    let path = path.join(format!("shadowgraph{}", std::env::consts::EXE_SUFFIX));
+    if !path.exists() {
+        return Err(format!("{} is not built; run the tests of the whole workspace", path.display()).into());
+    }
+    Command::new(path).args(words).current_dir(root()).output().map_err(|error| error.to_string().into())
+}
+
+fn folder() -> Result<(tempfile::TempDir, String), Failed> {
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    let name = folder.path().display().to_string();
+    Ok((folder, name))
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn succeeded(output: &Output) -> Result<(), Failed> {
+    if output.status.success() { Ok(()) } else { Err(format!("{}\n{}", stdout(output), stderr(output)).into()) }
+}
+
+fn render() -> Result<(), Failed> {
+    let (_keep, out) = folder()?;
+    let output = program(&["render", "hard", "--backend", "cpu", "--size", "64x48", "--out", &out])?;
+    succeeded(&output)?;
+    let text = stdout(&output);
+    for word in ["view_samples", "visibility", "shade", "CPU backend"] {
+        assert!(text.contains(word), "no {word} in\n{text}");
+    }
+    for file in ["image.png", "image.exr"] {
+        assert!(PathBuf::from(&out).join(file).exists(), "{file}");
+    }
+    Ok(())
+}
+
+fn shape_of(index: &str, file: &str) -> Result<Vec<u64>, Failed> {
+    let index: serde_json::Value = serde_json::from_str(index).map_err(|error| error.to_string())?;
+    let rows = index["arrays"].as_array().ok_or("no arrays")?;
+    let row = rows.iter().find(|row| row["file"] == file).ok_or(format!("no {file} in the index"))?;
+    Ok(row["shape"].as_array().ok_or("no shape")?.iter().filter_map(serde_json::Value::as_u64).collect())
+}
+
+fn dump() -> Result<(), Failed> {
+    let (_keep, out) = folder()?;
+    succeeded(&program(&["render", "hard", "--backend", "cpu", "--size", "40x30", "--dump", &out])?)?;
+    let index = std::fs::read_to_string(PathBuf::from(&out).join("index.json")).map_err(|error| error.to_string())?;
+    let positions = shape_of(&index, "view_samples.position.npy")?;
+    let masks = shape_of(&index, "visibility.mask.npy")?;
+    assert_eq!((masks[0], masks[1]), (positions[0], 1), "masks and positions differ in rows");
+    assert!(positions[0] > 0 && positions[0] <= 1200, "{positions:?}");
+    assert_eq!(shape_of(&index, "light_samples.npy")?, [1, 3]);
+    assert_eq!(shape_of(&index, "triangles.npy")?[1..], [3, 3]);
+    Ok(())
+}
+
+fn import() -> Result<(), Failed> {
+    let (_keep, first) = folder()?;
+    let (_keep_too, second) = folder()?;
+    succeeded(&program(&["render", "hard", "--backend", "cpu", "--size", "40x30", "--dump", &first])?)?;
+    let words = ["render", "rays", "--backend", "cpu", "--size", "40x30", "--view-samples", &first, "--dump", &second];
+    succeeded(&program(&words)?)?;
+    let read = |folder: &str, file: &str| std::fs::read(PathBuf::from(folder).join(file)).map_err(|error| error.to_string());
+    let same = read(&first, "view_samples.position.npy")? == read(&second, "view_samples.position.npy")?;
+    if same { Ok(()) } else { Err("imported positions are not those that were dumped".into()) }
+}
+
+fn check() -> Result<(), Failed> {
+    let (_keep, folder) = folder()?;
+    let path = PathBuf::from(&folder).join("wrong.ron");
+    let text = r#"(version: 1, base: "hard", replace: [(id: "visibilty", pass: "planes"), (id: "combine", pass: "popcnt")])"#;
+    std::fs::write(&path, text).map_err(|error| error.to_string())?;
+    let output = program(&["check", &path.display().to_string()])?;
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let text = stdout(&output);
+    assert!(text.contains("wrong.ron:1:") && text.contains("visibility") && text.contains("popcount"), "{text}");
+    succeeded(&program(&["check", "hard", "hard_fused", "hard_draw", "shadow_map", "pcf", "rays", "truth_hard"])?)
+}
+
+fn wrong_flags() -> Result<(), Failed> {
+    for (words, part) in [
+        (vec!["render", "hrad"], "did you mean hard?"),
+        (vec!["render", "hard", "--scene", "builtin:colums"], "columns"),
+        (vec!["render", "hard", "--size", "12"], "WIDTHxHEIGHT"),
+        (vec!["render", "hard", "--swap", "visibility"], "NODE=PASS"),
+        (vec!["render", "hard", "--scene", "missing.glb"], "missing.glb"),
+        (vec!["passes", "visibilty"], "visibility"),
+    ] {
+        let output = program(&words)?;
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        assert!(stderr(&output).contains(part), "{words:?}: {}", stderr(&output));
+    }
+    Ok(())
+}
+
+fn json() -> Result<(), Failed> {
+    let output = program(&["render", "hard", "--backend", "cpu", "--size", "32x32", "--json", "--repeat", "2"])?;
+    succeeded(&output)?;
+    let record: serde_json::Value = serde_json::from_str(&stdout(&output)).map_err(|error| error.to_string())?;
+    assert_eq!(record["runs_count"], 2);
+    assert_eq!(record["device"]["backend"], "cpu");
+    assert!(record["nodes"].as_array().is_some_and(|nodes| nodes.len() > 10), "{record}");
+    Ok(())
+}

@@ -1,0 +1,57 @@
+//! Hard shadows against exact predicates on the built-in failure scenes: no wrong bit on the CPU, at most one in 1e5 on a GPU.
+
+use crate::bench::{job, verify_args};
+use crate::gpu;
+use libtest_mimic::{Failed, Trial};
+use shadowgraph::commands::verify::verify;
+use shadowgraph::engine::Machine;
+
+/// Scenes with parameters that keep the suite quick.
+const SCENES: &[&str] = &[
+    "aligned", "camera-inside", "columns", "contact", "coplanar-P", "degenerate", "depth-noise?blades=3000", "far-light",
+    "grass-ring?blades=2000", "grazing", "hairball?strands=300", "hidden", "light-inside", "list-overload", "long-view",
+    "nonmanifold", "omni", "open", "random-triangles?count=5000", "self", "thin", "torus-knot", "transparent", "two-depths", "zoom",
+];
+
+/// Graphs that promise exact answers, and how many wrong bits a GPU may have.
+const EXACT: &[&str] = &["hard", "hard_fused"];
+const GPU_SHARE: f64 = 1e-5;
+
+/// One trial a scene, graph and backend, and the controls.
+pub fn trials() -> Vec<Trial> {
+    let mut trials = Vec::new();
+    for scene in SCENES {
+        for graph in EXACT {
+            let run = move || check(graph, scene, "160x120", "cpu", 0.0);
+            trials.push(Trial::test(format!("truth/{graph}/{scene}/cpu"), run));
+            let run = move |_: &_| check(graph, scene, "96x72", "wgpu", GPU_SHARE);
+            trials.push(gpu::trial(format!("truth/{graph}/{scene}/wgpu"), run));
+        }
+    }
+    trials.push(gpu::trial("truth/hard_draw/columns/wgpu".into(), |_| check("hard_draw", "columns", "96x72", "wgpu", GPU_SHARE)));
+    trials.push(Trial::test("truth/control/a_coarse_shadow_map_is_wrong", || {
+        let args = verify_args(&["shadow_map", "--set", "light_depth.size=64", "--backend", "cpu", "--size", "96x72", "--quiet"]);
+        let row = row(&args, "builtin:columns", "96x72")?;
+        if row.verdict.wrong_outside_count > 0 { Ok(()) } else { Err("no wrong bit found in a 64x64 shadow map".into()) }
+    }));
+    trials
+}
+
+fn check(graph: &str, scene: &str, size: &str, backend: &str, share: f64) -> Result<(), Failed> {
+    let args = verify_args(&[graph, "--backend", backend, "--size", size, "--quiet"]);
+    let row = row(&args, &format!("builtin:{scene}"), size)?;
+    let verdict = &row.verdict;
+    // One wrong bit on a small picture is more than the share of any large one: one is let pass on a GPU.
+    let allowed = if share > 0.0 { (share * verdict.all.bits_count as f64).max(1.0) as u64 } else { 0 };
+    if verdict.wrong_outside_count <= allowed {
+        return Ok(());
+    }
+    Err(format!("{} wrong bits of {}: {:?}", verdict.wrong_outside_count, verdict.all.bits_count, verdict.wrong.first()).into())
+}
+
+fn row(args: &shadowgraph::args::VerifyArgs, scene: &str, size: &str) -> Result<shadowgraph::commands::verify::Row, Failed> {
+    let job = job(scene, size);
+    let mut machine = Machine::new(args.run.backend).map_err(|problem| problem.to_string())?;
+    let catalogue = shadowgraph_passes::catalogue();
+    verify(&catalogue, args, &mut machine, String::new(), &job).map_err(|problems| problems.to_string().into())
+}

@@ -1,0 +1,172 @@
+//! CPU function against GPU recipe, node by node on equal inputs: a graph runs on the CPU with every value kept, then each node's
+//! recipe runs on the values its CPU function read, and the outputs are compared as the pass's contract says.
+
+use crate::bench::{job, render_args};
+use crate::gpu;
+use libtest_mimic::{Failed, Trial};
+use shadowgraph::args::BackendChoice;
+use shadowgraph::engine::Machine;
+use shadowgraph::graph_choice;
+use shadowgraph_core::array::{Array, Element};
+use shadowgraph_core::pass::Contract;
+use shadowgraph_core::plan::{Backend, Node};
+use shadowgraph_core::shared::NO_CELL;
+use shadowgraph_graph::Keep;
+use shadowgraph_wgpu::Session;
+
+/// Graphs that together mention every pass with both a CPU function and a recipe.
+const GRAPHS: &[(&str, &[&str])] = &[
+    ("hard", &[]),
+    ("hard", &["list_build=sort", "list_scan=serial", "casters=light_back_facing", "light_frame=whole", "sample_filter=all"]),
+    ("hard", &["visibility=fused", "light_frame=six_faces", "combine=threshold", "bent_light=own_face", "shade=phong"]),
+    ("shadow_map", &["light_depth=second_surface"]),
+    ("pcf", &[]),
+];
+
+const SCENES: &[(&str, &str)] = &[
+    ("builtin:columns", "65x63"),
+    ("builtin:random-triangles?count=3000", "130x97"),
+    ("builtin:one-triangle", "1x1"),
+    ("builtin:empty", "8x8"),
+];
+
+/// A trial a graph and scene.
+pub fn trials() -> Vec<Trial> {
+    let mut trials = Vec::new();
+    for (graph, swaps) in GRAPHS {
+        for (scene, size) in SCENES {
+            let name = format!("twins/{graph}{}/{scene}@{size}", swaps.iter().map(|swap| format!("+{swap}")).collect::<String>());
+            trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, scene, size)));
+        }
+    }
+    trials
+}
+
+fn twins(session: &Session, graph: &str, swaps: &[&str], scene: &str, size: &str) -> Result<(), Failed> {
+    let job = job(scene, size);
+    let words: Vec<String> =
+        std::iter::once(graph.to_string()).chain(swaps.iter().flat_map(|swap| ["--swap".to_string(), swap.to_string()])).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let choice = render_args(&words).graph;
+    let catalogue = shadowgraph_passes::catalogue();
+    let plan = graph_choice::plan(&choice, &catalogue, Some(&job.facts), Backend::Cpu, Keep::AllLivePorts)
+        .map_err(|problems| problems.to_string())?;
+    let machine = Machine::new(BackendChoice::Cpu).map_err(|problem| problem.to_string())?;
+    let outcome = machine.run(&plan, &job, 1, &|_, _, _| {}).map_err(|problem| problem.to_string())?;
+    let mut faults = Vec::new();
+    for node in plan.nodes.iter().filter(|node| node.pass.gpu.is_some()) {
+        let inputs: Vec<_> = node.inputs.iter().map(|(port, slot)| (*port, outcome.values.get(*slot).clone())).collect();
+        let (outputs, _) = match session.run_node(node.pass, &node.params, job.image, &inputs) {
+            Ok(done) => done,
+            Err(problem) => {
+                faults.push(format!("{}: {problem}", node.id));
+                continue;
+            }
+        };
+        let cpu: Vec<_> = node.outputs.iter().map(|(port, slot)| (*port, outcome.values.get(*slot))).collect();
+        faults.extend(node_faults(node, &inputs, &cpu, &outputs));
+    }
+    if faults.is_empty() { Ok(()) } else { Err(faults.join("\n").into()) }
+}
+
+type Named<'a> = &'a [(&'static str, Array)];
+
+fn node_faults(node: &Node, inputs: Named, cpu: &[(&'static str, &Array)], gpu: Named) -> Vec<String> {
+    let port = |name: &str| gpu.iter().find(|(port, _)| *port == name).map(|(_, array)| array);
+    let twin = |name: &str| cpu.iter().find(|(port, _)| *port == name).map(|(_, array)| *array);
+    match node.pass.stage.name {
+        // Lists are sets: compared by what each cell holds.
+        "list_build" => list_faults(port("cell"), port("slot"), port("list_length"), twin("cell")),
+        "list_fill" => sets_faults(inputs, "list_offset", twin("list_entries"), port("list_entries")),
+        "caster_fill" => sets_faults(inputs, "caster_offset", twin("caster_entries"), port("caster_entries")),
+        // Judged by the masks that come of it: `truth` holds that nothing that matters is missing.
+        "conservative_raster" => Vec::new(),
+        _ => cpu
+            .iter()
+            .filter_map(|(name, wanted)| {
+                let found = port(name)?;
+                value_fault(wanted, found, node.pass.contract).map(|fault| format!("{}.{name}: {fault}", node.id))
+            })
+            .collect(),
+    }
+}
+
+/// Floats within the contract's bound relative to the larger of 1 and the value; whole numbers equal but for a share of one in
+/// a thousand where two roundings may choose neighbouring triangles or texels.
+fn value_fault(wanted: &Array, found: &Array, contract: Contract) -> Option<String> {
+    if wanted.shape() != found.shape() {
+        return Some(format!("shape {:?}, not {:?}", found.shape(), wanted.shape()));
+    }
+    let bound = match contract {
+        Contract::Exact => 0.0,
+        Contract::Within(bound) => bound,
+        _ => 1e-4,
+    };
+    let differs = |index: &usize| match wanted.element() {
+        Element::U32 => wanted.words()[*index] != found.words()[*index],
+        Element::F32 => {
+            let (want, got) = (wanted.as_f32()[*index], found.as_f32()[*index]);
+            want.to_bits() != got.to_bits() && (want - got).abs() > bound * want.abs().max(1.0)
+        }
+    };
+    let count = (0..wanted.words().len()).filter(differs).count();
+    let allowed = if bound == 0.0 { 0 } else { wanted.words().len() / 1000 + 1 };
+    (count > allowed).then(|| {
+        let first = (0..wanted.words().len()).find(|index| differs(index)).unwrap_or(0);
+        format!("{count} of {} words differ, first word {first}", wanted.words().len())
+    })
+}
+
+fn list_faults(cell: Option<&Array>, slot: Option<&Array>, length: Option<&Array>, twin: Option<&Array>) -> Vec<String> {
+    let (Some(cell), Some(slot), Some(length), Some(twin)) = (cell, slot, length, twin) else { return vec!["no lists".into()] };
+    let mut seen: Vec<Vec<u32>> = vec![Vec::new(); length.words().len()];
+    for (cell, slot) in cell.as_u32().iter().zip(slot.as_u32()).filter(|(cell, _)| **cell != NO_CELL) {
+        seen[*cell as usize].push(*slot);
+    }
+    let mut faults = Vec::new();
+    for (slots, length) in seen.iter_mut().zip(length.as_u32()) {
+        slots.sort_unstable();
+        if !slots.iter().copied().eq(0..*length) {
+            faults.push(format!("a list of length {length} has places {slots:?}"));
+        }
+    }
+    let moved = cell.as_u32().iter().zip(twin.as_u32()).filter(|(one, other)| one != other).count();
+    if moved > cell.words().len() / 1000 + 1 {
+        faults.push(format!("{moved} of {} view-samples are in another cell", cell.words().len()));
+    }
+    faults
+}
+
+fn sets_faults(inputs: Named, offset: &str, wanted: Option<&Array>, found: Option<&Array>) -> Vec<String> {
+    let offsets = inputs.iter().find(|(port, _)| *port == offset).map_or(&[] as &[u32], |(_, array)| array.as_u32());
+    let (Some(wanted), Some(found)) = (wanted, found) else { return vec!["no entries".into()] };
+    let set = |array: &Array, range: std::ops::Range<usize>| {
+        let mut set = array.as_u32()[range].to_vec();
+        set.sort_unstable();
+        set
+    };
+    let differs = |pair: &[u32]| {
+        let range = pair[0] as usize..pair[1] as usize;
+        set(wanted, range.clone()) != set(found, range)
+    };
+    let count = offsets.windows(2).filter(|pair| differs(pair)).count();
+    if count == 0 { Vec::new() } else { vec![format!("{count} cells hold other entries")] }
+}
+
+/// A planted fault must be found.
+pub fn controls() -> Vec<Trial> {
+    vec![Trial::test("twins/control/a_planted_difference_is_found", || {
+        let wanted = Array::f32([4], vec![1.0, 2.0, 3.0, 4.0]);
+        let found = Array::f32([4], vec![1.0, 2.5, 3.0, 4.5]);
+        let whole = Array::u32([2], vec![1, 2]);
+        assert!(value_fault(&wanted, &wanted, Contract::Exact).is_none());
+        assert!(value_fault(&wanted, &found, Contract::Within(0.1)).is_some());
+        assert!(value_fault(&whole, &Array::u32([2], vec![1, 3]), Contract::Exact).is_some());
+        assert!(value_fault(&whole, &Array::u32([1], vec![1]), Contract::Exact).is_some());
+        let offsets = [("list_offset", Array::u32([3], vec![0, 2, 3]))];
+        let (one, same, other) = (Array::u32([3], vec![5, 6, 7]), Array::u32([3], vec![6, 5, 7]), Array::u32([3], vec![6, 7, 5]));
+        assert!(sets_faults(&offsets, "list_offset", Some(&one), Some(&same)).is_empty());
+        assert_eq!(sets_faults(&offsets, "list_offset", Some(&one), Some(&other)).len(), 1);
+        Ok(())
+    })]
+}
