@@ -69,16 +69,6 @@ impl<'a> Samples<'a> {
     }
 }
 
-/// A word a cell, zero.
-pub fn atomic_words(count: usize) -> Vec<AtomicU32> {
-    vec![0; count].into_iter().map(AtomicU32::new).collect()
-}
-
-/// The words once no thread writes them any more.
-pub fn words(atomic: Vec<AtomicU32>) -> Vec<u32> {
-    atomic.into_iter().map(AtomicU32::into_inner).collect()
-}
-
 /// Keeps the larger of `depth` and the stored depth; both above zero, so their bits are ordered as they are. Most
 /// view-samples are not the furthest so far: looking first saves the exchange.
 #[inline]

@@ -1,5 +1,6 @@
 //! Code and WGSL pieces that several passes are made of.
 
+pub mod atomic_words;
 pub mod bvh;
 pub mod camera;
 pub mod contact;
@@ -14,3 +15,4 @@ pub mod pyramid;
 pub mod receivers;
 pub mod scan;
 pub mod segments;
+pub mod table_fill;

@@ -1,7 +1,8 @@
 //! Sorting (cell, view-sample) pairs by least significant digits, and ranks from runs of equal cells.
 
 use crate::list_build::Lists;
-use crate::list_build::place::{Samples, atomic_words, keep_far, words};
+use crate::list_build::place::{Samples, keep_far};
+use crate::shared::atomic_words::{atomic_zeros, into_words};
 use rayon::prelude::*;
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::problem::Problem;
@@ -16,14 +17,14 @@ const CHUNK: usize = 1 << 14;
 /// Cells, slots, lengths and depths.
 pub fn sort(samples: &Samples) -> Lists {
     let cell_count = samples.cell_count();
-    let far = atomic_words(cell_count);
+    let far = atomic_zeros(cell_count);
     let (cell, slot, unplaced) = samples.each(|cell, depth| {
         keep_far(&far[cell], depth);
         0
     });
     let sorted = by_cell(&cell, cell_count);
     let slot: Vec<AtomicU32> = slot.into_iter().map(AtomicU32::new).collect();
-    let length = atomic_words(cell_count);
+    let length = atomic_zeros(cell_count);
     rank(
         &sorted,
         |view_sample, rank| slot[view_sample].store(rank, Relaxed),
@@ -31,7 +32,13 @@ pub fn sort(samples: &Samples) -> Lists {
             length[cell].store(run, Relaxed);
         },
     );
-    Lists { cell, slot: words(slot), length: words(length), far: bytemuck::cast_vec(words(far)), unplaced }
+    Lists {
+        cell,
+        slot: into_words(slot),
+        length: into_words(length),
+        far: bytemuck::cast_vec(into_words(far)),
+        unplaced,
+    }
 }
 
 /// Pairs of cell (high half) and view-sample (low half), ascending; view-samples in no cell are left out.
