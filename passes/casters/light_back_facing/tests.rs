@@ -1,0 +1,46 @@
+use super::cpu::casts;
+use shadowgraph_core::scene::flag;
+
+/// Counter-clockwise seen from above (positive y).
+const FLOOR: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
+const ABOVE: [f32; 3] = [0.2, 3.0, 0.2];
+const BELOW: [f32; 3] = [0.2, -3.0, 0.2];
+
+#[test]
+fn only_the_back_of_a_closed_mesh_casts() {
+    assert!(!casts(&FLOOR, flag::CLOSED, &[ABOVE]));
+    assert!(casts(&FLOOR, flag::CLOSED, &[BELOW]));
+    assert!(casts(&FLOOR, 0, &[ABOVE]) && casts(&FLOOR, 0, &[BELOW]));
+    assert!(!casts(&FLOOR, flag::CLOSED | flag::TWO_SIDED, &[ABOVE]));
+}
+
+#[test]
+fn one_light_sample_behind_is_enough() {
+    assert!(casts(&FLOOR, flag::CLOSED, &[ABOVE, ABOVE, BELOW]));
+}
+
+#[test]
+fn edge_on_and_degenerate_triangles_of_closed_meshes_do_not_cast() {
+    assert!(!casts(&FLOOR, flag::CLOSED, &[[7.0, 0.0, 9.0]]));
+    assert!(!casts(&[[0.0; 3], [1.0; 3], [2.0; 3]], flag::CLOSED, &[BELOW]));
+}
+
+#[test]
+fn the_smallest_step_off_the_plane_decides() {
+    // The plane x + y + z = 3 through points whose coordinates f32 holds, and light samples one unit in the last place off it.
+    let plane = [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]];
+    assert!(!casts(&plane, flag::CLOSED, &[[1.0, 1.0, 1.0]]));
+    assert!(!casts(&plane, flag::CLOSED, &[[1.0, 1.0, 1.0f32.next_up()]]));
+    assert!(casts(&plane, flag::CLOSED, &[[1.0, 1.0, 1.0f32.next_down()]]));
+}
+
+#[test]
+fn of_a_closed_tetrahedron_some_triangles_cast_and_some_do_not() {
+    let [o, x, y, z] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let sides = [[o, y, x], [o, x, z], [o, z, y], [x, y, z]];
+    let cast = |light: [f32; 3]| sides.map(|side| casts(&side, flag::CLOSED, &[light]));
+    assert_eq!(cast([5.0, 5.0, 5.0]), [true, true, true, false]);
+    assert_eq!(cast([-1.0, -1.0, -1.0]), [false, false, false, true]);
+    // From within, every side shows its back.
+    assert_eq!(cast([0.1, 0.1, 0.1]), [true; 4]);
+}
