@@ -1,8 +1,13 @@
 //! Stage `combine`: Mask to visible fraction (Sintorn 2008, sections 3 and 4.2).
 
+mod blocked;
+pub mod popcount;
+pub mod threshold;
+
 use crate::ports;
 use shadowgraph_core::input;
 use shadowgraph_core::pass::Pass;
+use shadowgraph_core::size::SizeCx;
 use shadowgraph_core::stage::Stage;
 
 /// The signature.
@@ -13,4 +18,9 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[];
+pub const PASSES: &[&Pass] = &[&popcount::PASS, &threshold::PASS];
+
+/// One fraction a view-sample.
+fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
+    vec![(ports::VISIBLE.name, vec![cx.dim(ports::SAMPLE_STATE.name, 0)])]
+}
