@@ -54,7 +54,11 @@ pub(crate) struct Opened {
 
 /// Opens the best adapter that `wanted` allows: hardware before software.
 pub(crate) fn open(wanted: &Wanted) -> Result<Opened, Problem> {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    // wgpu validates by itself; the driver's validation layers only cost here. `WGPU_DEBUG=1` brings labels into captures.
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        flags: wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL.with_env(),
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
     let all = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
     let names: Vec<String> = all.iter().map(|adapter| adapter.get_info().name).collect();
     let fits = |adapter: &wgpu::Adapter| {

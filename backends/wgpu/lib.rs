@@ -33,6 +33,10 @@ pub mod upload;
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_draw;
+#[cfg(test)]
+mod tests_host;
 
 pub use externals::Externals;
 pub use prepare::{Prepared, Request};

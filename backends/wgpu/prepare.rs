@@ -48,6 +48,8 @@ pub struct Prepared {
     pub(crate) shapes: Shapes,
     pub(crate) layout: Layout,
     pub(crate) memories: Vec<Memory>,
+    /// Whether nodes and commands are labelled in the encoder: Mesa's llvmpipe crashes on the second label of an encoder.
+    pub(crate) labels: bool,
     /// What to record for each node; none for nodes of another backend.
     pub(crate) nodes: Vec<Option<Vec<Act>>>,
 }
@@ -77,8 +79,15 @@ impl Prepared {
         layout.check(&limits, request.budget_bytes)?;
         scoped(device, || {
             let memories = allocate(device, &layout);
-            let mut prepared =
-                Self { device: device.clone(), plan: plan.clone(), shapes, layout, memories, nodes: Vec::new() };
+            let mut prepared = Self {
+                device: device.clone(),
+                plan: plan.clone(),
+                shapes,
+                layout,
+                memories,
+                labels: device.adapter_info().driver != "llvmpipe",
+                nodes: Vec::new(),
+            };
             let mut maker = Maker { pipelines, queue, dummies: HashMap::new(), limits };
             for (index, recipe) in recipes.iter().enumerate() {
                 let acts = recipe.as_ref().map(|recipe| maker.acts(&prepared, index, recipe)).transpose();

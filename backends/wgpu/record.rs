@@ -48,7 +48,9 @@ impl Prepared {
         for index in nodes {
             let Some(acts) = &self.nodes[index] else { continue };
             let node = &self.plan.nodes[index];
-            encoder.push_debug_group(&node.id);
+            if self.labels {
+                encoder.push_debug_group(&node.id);
+            }
             if let Some(counters) = self.layout.counters(index) {
                 zero(encoder, bound, counters);
             }
@@ -73,7 +75,9 @@ impl Prepared {
                     }
                 }
             }
-            encoder.pop_debug_group();
+            if self.labels {
+                encoder.pop_debug_group();
+            }
         }
     }
 }
@@ -90,10 +94,13 @@ fn compute(
     kernels: &[Kernel],
     timestamp_writes: Option<wgpu::ComputePassTimestampWrites>,
 ) {
-    let descriptor = wgpu::ComputePassDescriptor { label: Some(node.name), timestamp_writes };
+    let descriptor =
+        wgpu::ComputePassDescriptor { label: bound.prepared.labels.then_some(node.name), timestamp_writes };
     let mut pass = encoder.begin_compute_pass(&descriptor);
     for kernel in kernels {
-        pass.push_debug_group(kernel.label);
+        if bound.prepared.labels {
+            pass.push_debug_group(kernel.label);
+        }
         pass.set_pipeline(&kernel.pipeline);
         pass.set_bind_group(0, &kernel.group.get(bound, kernel.label), &[]);
         match &kernel.size {
@@ -103,7 +110,9 @@ fn compute(
                 pass.dispatch_workgroups_indirect(buffer, offset + start);
             }
         }
-        pass.pop_debug_group();
+        if bound.prepared.labels {
+            pass.pop_debug_group();
+        }
     }
 }
 
@@ -134,7 +143,7 @@ fn draw(
         (view, changed.then_some(wgpu::Operations { load, store: wgpu::StoreOp::Store }))
     });
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(draw.label),
+        label: bound.prepared.labels.then_some(draw.label),
         color_attachments: &attachments,
         depth_stencil_attachment: depth.as_ref().map(|(view, depth_ops)| wgpu::RenderPassDepthStencilAttachment {
             view,

@@ -48,9 +48,10 @@ impl Prepared {
         let name = &self.plan.slots[slot].name;
         let is_depth = self.layout.slot(slot).is_some_and(|part| part.storage == Storage::DepthTexture);
         match self.own_memory(slot, name, array)?.map(|index| &self.memories[index]) {
-            Some(Memory::Texture(texture)) if is_depth && array.bytes() > 0 => {
-                scoped(&self.device, || Ok(draw_depth(&self.device, queue, texture, array)))
-            }
+            Some(Memory::Texture(texture)) if is_depth && array.bytes() > 0 => scoped(&self.device, || {
+                draw_depth(&self.device, queue, texture, array);
+                Ok(())
+            }),
             _ if is_depth => Ok(()),
             _ => self.upload(queue, name, array),
         }
