@@ -3,7 +3,7 @@
 
 use crate::ports;
 use crate::shared::light_frame::{Face, uv_pad};
-use glam::Vec3;
+use glam::{BVec4A, Vec3, Vec4};
 use rayon::prelude::*;
 use shadowgraph_core::input;
 use shadowgraph_core::pass::{Counter, CounterKind};
@@ -109,11 +109,9 @@ pub fn look(origin: Vec3, towards: Vec3) -> Face {
 /// Bounds of the directions from `origin` to kept view-samples, each scaled so that its largest component is 1: on the cube
 /// around the light, whose box's middle keeps single faces in front of all samples wherever their spread allows.
 pub fn direction_bounds(origin: Vec3, positions: &[[f32; 3]], states: &[u32]) -> Bounds {
-    let (bounds, _) = reduce(positions, states, |x, y, z| {
-        let (x, y, z) = (x - origin.x, y - origin.y, z - origin.z);
-        let larger = if x.abs() > y.abs() { x.abs() } else { y.abs() };
-        let largest = if larger > z.abs() { larger } else { z.abs() };
-        ([x / largest, y / largest, z / largest], largest > 0.0)
+    let ([bounds], _) = reduce(origin, positions, states, |offset| {
+        let largest = offset[0].abs().max(offset[1].abs()).max(offset[2].abs());
+        [(offset.map(|component| component / largest), largest.cmpgt(Vec4::ZERO))]
     });
     bounds
 }
@@ -125,14 +123,12 @@ pub fn middle(bounds: &Bounds) -> Vec3 {
 
 /// Bounds of (u, v, depth) of kept view-samples in front of a single face, and the number of those that are not.
 pub fn window_bounds(face: &Face, positions: &[[f32; 3]], states: &[u32]) -> (Bounds, u64) {
-    let Face { origin, axis_x, axis_y, axis_z, .. } = *face;
-    reduce(positions, states, |x, y, z| {
-        let (x, y, z) = (x - origin.x, y - origin.y, z - origin.z);
-        let depth = axis_z.x * x + axis_z.y * y + axis_z.z * z;
-        let u = (axis_x.x * x + axis_x.y * y + axis_x.z * z) / depth;
-        let v = (axis_y.x * x + axis_y.y * y + axis_y.z * z) / depth;
-        ([u, v, depth], depth > 0.0)
-    })
+    let ([bounds], behind) = reduce(face.origin, positions, states, |[x, y, z]| {
+        let along = |axis: Vec3| axis.x * x + axis.y * y + axis.z * z;
+        let depth = along(face.axis_z);
+        [([along(face.axis_x) / depth, along(face.axis_y) / depth, depth], depth.cmpgt(Vec4::ZERO))]
+    });
+    (bounds, behind)
 }
 
 /// `face` with window, near and far fitted to `bounds` of (u, v, depth); as it was, and not valid, when they are empty.
@@ -160,53 +156,56 @@ pub fn fit_depth(mut face: Face, bounds: &Bounds) -> Face {
     face
 }
 
-/// View-samples of a rayon task, and of a step of its inner loop: the compiler turns the latter into vector instructions.
+/// View-samples of a rayon task.
 const CHUNK: usize = 1 << 14;
-const LANES: usize = 8;
+/// View-samples of a step of its inner loop: those of a vector register.
+const LANES: usize = 4;
 
-/// Bounds of `values` over kept view-samples for which it says true, and the number of kept ones for which it does not.
-fn reduce(
+/// One component of four view-samples in each vector.
+pub type Lanes = [Vec4; 3];
+
+/// Bounds over the kept view-samples of each of `N` groups, and the number of kept ones in no group. `groups` takes offsets
+/// from `origin`, and gives for each group three numbers and the lanes that are in it.
+pub fn reduce<const N: usize>(
+    origin: Vec3,
     positions: &[[f32; 3]],
     states: &[u32],
-    values: impl Fn(f32, f32, f32) -> ([f32; 3], bool) + Sync,
-) -> (Bounds, u64) {
+    groups: impl Fn(Lanes) -> [(Lanes, BVec4A); N] + Sync,
+) -> ([Bounds; N], u64) {
     let chunks = positions.par_chunks(CHUNK).zip(states.par_chunks(CHUNK));
     let parts = chunks.map(|(positions, states)| {
-        let mut low = [[f32::INFINITY; LANES]; 3];
-        let mut high = [[f32::NEG_INFINITY; LANES]; 3];
-        let mut left_out = [0u32; LANES];
-        let mut step = |positions: &[[f32; 3]; LANES], states: &[u32; LANES]| {
-            for lane in 0..LANES {
-                let [x, y, z] = positions[lane];
-                let (values, counts) = values(x, y, z);
-                let kept = states[lane] == KEPT;
-                let taken = kept & counts;
-                for axis in 0..3 {
-                    let value = values[axis];
-                    // Comparisons with what is not a number are false: such a value changes nothing.
-                    low[axis][lane] = if taken & (value < low[axis][lane]) { value } else { low[axis][lane] };
-                    high[axis][lane] = if taken & (value > high[axis][lane]) { value } else { high[axis][lane] };
-                }
-                left_out[lane] += u32::from(kept & !counts);
-            }
-        };
         let (whole_positions, last_positions) = positions.as_chunks::<LANES>();
         let (whole_states, last_states) = states.as_chunks::<LANES>();
-        for (positions, states) in whole_positions.iter().zip(whole_states) {
-            step(positions, states);
-        }
         let mut padded = ([[0.0; 3]; LANES], [!KEPT; LANES]);
         padded.0[..last_positions.len()].copy_from_slice(last_positions);
         padded.1[..last_states.len()].copy_from_slice(last_states);
-        step(&padded.0, &padded.1);
-        let mut bounds = EMPTY;
-        for lane in 0..LANES {
-            let lane_bounds = Bounds { low: low.map(|lanes| lanes[lane]), high: high.map(|lanes| lanes[lane]) };
-            bounds = bounds.union(lane_bounds);
+
+        let mut extremes = [([Vec4::INFINITY; 3], [Vec4::NEG_INFINITY; 3]); N];
+        let mut left_out = 0u64;
+        let last = std::iter::once((&padded.0, &padded.1));
+        for (p, state) in whole_positions.iter().zip(whole_states).chain(last) {
+            let offset: Lanes =
+                std::array::from_fn(|k| Vec4::new(p[0][k], p[1][k], p[2][k], p[3][k]) - Vec4::splat(origin[k]));
+            let mut rest = BVec4A::new(state[0] == KEPT, state[1] == KEPT, state[2] == KEPT, state[3] == KEPT);
+            for ((values, member), (low, high)) in groups(offset).into_iter().zip(&mut extremes) {
+                let taken = rest & member;
+                // Neighbours share a group: most of six are empty.
+                if N > 1 && !taken.any() {
+                    continue;
+                }
+                for axis in 0..3 {
+                    low[axis] = Vec4::select(taken, values[axis], Vec4::INFINITY).min(low[axis]);
+                    high[axis] = Vec4::select(taken, values[axis], Vec4::NEG_INFINITY).max(high[axis]);
+                }
+                rest &= !member;
+            }
+            left_out += u64::from(rest.bitmask().count_ones());
         }
-        (bounds, left_out.iter().copied().map(u64::from).sum::<u64>())
+        let bounds =
+            |(low, high): (Lanes, Lanes)| Bounds { low: low.map(Vec4::min_element), high: high.map(Vec4::max_element) };
+        (extremes.map(bounds), left_out)
     });
-    parts.reduce(|| (EMPTY, 0), |a, b| (a.0.union(b.0), a.1 + b.1))
+    parts.reduce(|| ([EMPTY; N], 0), |a, b| (std::array::from_fn(|group| a.0[group].union(b.0[group])), a.1 + b.1))
 }
 
 /// Invocations of a reducing kernel.

@@ -2,21 +2,18 @@
 
 use super::{BEHIND, FACES};
 use crate::ports;
-use crate::shared::light_fit::{self, Bounds, EMPTY};
+use crate::shared::light_fit::{self, Bounds};
 use crate::shared::light_frame::Face;
-use glam::Vec3;
-use rayon::prelude::*;
+use glam::{Vec3, Vec4};
 use shadowgraph_core::array::Array;
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::input;
 use shadowgraph_core::problem::Problem;
-use shadowgraph_core::shared::{FACE_WORDS, KEPT};
-
-/// View-samples of a rayon task.
-const CHUNK: usize = 1 << 14;
+use shadowgraph_core::shared::FACE_WORDS;
 
 /// Index of the face's world axis, and of those of its x and y: for a face looking up an axis the two that follow it, for one
 /// looking down the same two swapped, so that both are right-handed.
+#[inline]
 fn axes(face: usize) -> [usize; 3] {
     let axis = face / 2;
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -44,31 +41,17 @@ pub fn cube(origin: Vec3) -> [Face; FACES] {
 
 /// Bounds of (u, v, depth) on each face of the cube, and the number of kept view-samples at `origin`.
 fn cube_bounds(origin: Vec3, positions: &[[f32; 3]], states: &[u32]) -> ([Bounds; FACES], u64) {
-    let chunks = positions.par_chunks(CHUNK).zip(states.par_chunks(CHUNK));
-    let parts = chunks.map(|(positions, states)| {
-        let mut bounds = [EMPTY; FACES];
-        let mut left_out = 0;
-        for (position, _) in positions.iter().zip(states).filter(|(_, state)| **state == KEPT) {
-            let offset = Vec3::from(*position) - origin;
-            // The largest of the six depths, the lowest face of equals.
-            let mut best = (0, 0.0);
-            for axis in 0..3 {
-                let depth = offset[axis].abs();
-                if depth > best.1 {
-                    best = (2 * axis + usize::from(offset[axis] < 0.0), depth);
-                }
-            }
-            let (face, depth) = best;
-            let [_, axis_x, axis_y] = axes(face);
-            if depth > 0.0 {
-                bounds[face].add([offset[axis_x] / depth, offset[axis_y] / depth, depth]);
-            } else {
-                left_out += 1;
-            }
-        }
-        (bounds, left_out)
-    });
-    parts.reduce(|| ([EMPTY; FACES], 0), |a, b| (std::array::from_fn(|face| a.0[face].union(b.0[face])), a.1 + b.1))
+    light_fit::reduce(origin, positions, states, |offset| {
+        let [x, y, z] = offset.map(Vec4::abs);
+        let largest = x.max(y).max(z);
+        std::array::from_fn(|face| {
+            let [axis, axis_x, axis_y] = axes(face);
+            let depth = if face.is_multiple_of(2) { offset[axis] } else { -offset[axis] };
+            // Of equals the lowest face takes the lane: later ones get what is left.
+            let member = depth.cmpge(largest) & depth.cmpgt(Vec4::ZERO);
+            ([offset[axis_x] / depth, offset[axis_y] / depth, depth], member)
+        })
+    })
 }
 
 /// The faces, and how many kept view-samples none of them can place.
