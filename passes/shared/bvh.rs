@@ -134,6 +134,39 @@ impl Bvh {
             }
         }
     }
+
+    /// Calls `visit` with every triangle the ray meets no later than `visit` last answered, and with some others, nearer boxes
+    /// first. `visit` answers the largest t of `from + t direction` still of interest.
+    pub fn along_ray(&self, walk: &mut Walk, from: [f64; 3], direction: [f64; 3], mut visit: impl FnMut(u32) -> f64) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let slabs = Slabs { from, inverse: direction.map(|x| 1.0 / x), pad: 0.0 };
+        let mut limit = f64::INFINITY;
+        walk.stack.clear();
+        walk.stack.push(0);
+        while let Some(index) = walk.stack.pop() {
+            let node = &self.nodes[index as usize];
+            // Once more, as the limit may have fallen since the node was put away.
+            if slabs.enters_before(node, limit).is_none() {
+                continue;
+            }
+            if node.count > 0 {
+                for &id in &self.order[node.first as usize..(node.first + node.count) as usize] {
+                    limit = visit(id);
+                }
+                continue;
+            }
+            let children = [node.first, node.first + 1];
+            match children.map(|child| slabs.enters_before(&self.nodes[child as usize], limit)) {
+                [Some(a), Some(b)] if a <= b => walk.stack.extend([children[1], children[0]]),
+                [Some(_), Some(_)] => walk.stack.extend(children),
+                [Some(_), None] => walk.stack.push(children[0]),
+                [None, Some(_)] => walk.stack.push(children[1]),
+                [None, None] => {}
+            }
+        }
+    }
 }
 
 /// A segment prepared for boxes.
@@ -152,6 +185,12 @@ impl Slabs {
     /// Where the segment (0 at its start, 1 at its end) enters the box, or none if it certainly does not.
     #[inline(always)]
     fn enters(&self, node: &Node) -> Option<f64> {
+        self.enters_before(node, 1.0)
+    }
+
+    /// The same for a segment that ends at `limit`.
+    #[inline(always)]
+    fn enters_before(&self, node: &Node, limit: f64) -> Option<f64> {
         let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
         for k in 0..3 {
             let a = (f64::from(node.low[k]) - self.pad - self.from[k]) * self.inverse[k];
@@ -162,7 +201,7 @@ impl Slabs {
         }
         // Each distance is off by at most SLAB_ERROR of itself: the comparisons give way by that much.
         let (early, late) = (near - SLAB_ERROR * near.abs(), far + SLAB_ERROR * far.abs());
-        (early <= late && late >= 0.0 && early <= 1.0).then_some(near)
+        (early <= late && late >= 0.0 && early <= limit).then_some(near)
     }
 }
 
