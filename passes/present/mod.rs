@@ -1,5 +1,7 @@
 //! Stage `present`: Hands the picture to a host as a texture.
 
+pub mod to_rgba32float;
+
 use crate::ports;
 use shadowgraph_core::pass::Pass;
 use shadowgraph_core::stage::Stage;
@@ -15,4 +17,4 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[];
+pub const PASSES: &[&Pass] = &[&to_rgba32float::PASS];
