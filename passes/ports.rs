@@ -18,6 +18,21 @@ pub const TRIANGLE: Port = Port::new(Out, "triangle", U32, "triangle_of_sample",
 /// View-sample pixels.
 pub const PIXEL: Port =
     Port::new(Out, "pixel", U32, "pixel", "P").space(Space::Image).doc("row-major pixel index, from the top left");
+/// View-sample positions that a host renders.
+pub const GBUFFER_POSITION: Port = Port::new(Out, "gbuffer_position", F32, "position", "H W 4")
+    .space(Space::World)
+    .unit("scene units")
+    .storage(Storage::Rgba32Float)
+    .doc("a host's surface points, one for each pixel; the fourth word is not read");
+/// View-sample normals that a host renders.
+pub const GBUFFER_NORMAL: Port = Port::new(Out, "gbuffer_normal", F32, "normal", "H W 4")
+    .space(Space::World)
+    .storage(Storage::Rgba32Float)
+    .doc("their unit geometric normals, on the viewer's side; the fourth word is not read");
+/// View-sample triangles that a host renders.
+pub const GBUFFER_TRIANGLE: Port = Port::new(Out, "gbuffer_triangle", U32, "triangle_of_sample", "H W")
+    .storage(Storage::R32Uint)
+    .doc("the triangle each lies on, by its place in `triangles`; all bits set: background");
 /// View-sample states.
 pub const SAMPLE_STATE: Port = Port::new(Out, "sample_state", U32, "sample_state", "P")
     .doc("0 background, 1 kept, 2 facing away from the light (its mask is full)");
