@@ -37,6 +37,8 @@ pub struct Footprint {
     pub rows: [usize; 2],
     /// First and last column of the box.
     columns: [usize; 2],
+    /// The box itself, padded: smallest and largest u, then v.
+    pub bounds: [[f32; 2]; 2],
     /// Edge functions, scaled to a size of one; none where the box is as good.
     lines: Option<[[f64; 3]; 3]>,
 }
@@ -95,7 +97,7 @@ impl Footprint {
     /// The whole face.
     pub fn everything(grid: &Grid) -> Self {
         let all = [0, grid.side - 1];
-        Self { rows: all, columns: all, lines: None }
+        Self { rows: all, columns: all, bounds: [[f32::MIN, f32::MAX]; 2], lines: None }
     }
 
     /// That of `cone`; none when it can matter to no view-sample of the face.
@@ -119,10 +121,12 @@ impl Footprint {
         }
         let [u, v] = ends.map(|[low, high]| low.abs().max(high.abs()));
         let slack = SLACK * (1.0 + u * u + v * v);
-        let columns = grid.range(0, [ends[0][0] - slack, ends[0][1] + slack])?;
-        let rows = grid.range(1, [ends[1][0] - slack, ends[1][1] + slack])?;
+        let ends = ends.map(|[low, high]| [low - slack, high + slack]);
+        let columns = grid.range(0, ends[0])?;
+        let rows = grid.range(1, ends[1])?;
+        let bounds = ends.map(|ends| ends.map(|x| x as f32));
         let small = rows[1] - rows[0] < 2 || columns[1] - columns[0] < 2;
-        Some(Self { rows, columns, lines: (!small).then(|| lines(cone)) })
+        Some(Self { rows, columns, bounds, lines: (!small).then(|| lines(cone)) })
     }
 
     /// First and last column touched in `row`, which is one of [`Footprint::rows`].

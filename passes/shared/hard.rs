@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::problem::{Kind, Problem};
-use shadowgraph_core::shared::{FACING_AWAY, KEPT, NO_TRIANGLE};
+use shadowgraph_core::shared::{FACING_AWAY, NO_TRIANGLE};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Inputs of a hard visibility pass.
@@ -99,21 +99,25 @@ impl Scene<'_> {
 pub fn mask(receivers: &Receivers, sample_state: &[u32], wild_blocked: &[u32]) -> Array {
     let base = |state: &u32| AtomicU32::new(if *state == FACING_AWAY { u32::MAX } else { 0 });
     let mask: Vec<AtomicU32> = sample_state.par_iter().with_min_len(1 << 14).map(base).collect();
-    receivers.who.par_chunks(LANES).zip(&receivers.blocked).with_min_len(1 << 10).for_each(|(who, blocked)| {
-        let blocked = blocked.load(Relaxed);
-        for (lane, receiver) in who.iter().enumerate() {
-            if blocked >> lane & 1 == 1 && receiver.sample != NO_TRIANGLE {
-                // Each view-sample is listed once, so no two threads meet here.
-                mask[receiver.sample as usize].store(1, Relaxed);
+    for face in &receivers.faces {
+        let [start, end] = face.places;
+        let blocked = &receivers.blocked[start / LANES..end.div_ceil(LANES)];
+        let lists = receivers.entries[start - face.shift..end - face.shift].par_chunks(LANES);
+        lists.zip(blocked).with_min_len(1 << 10).for_each(|(list, blocked)| {
+            let blocked = blocked.load(Relaxed);
+            for (lane, sample) in list.iter().enumerate() {
+                if blocked >> lane & 1 == 1 {
+                    // Each view-sample is listed once, so no two threads meet here.
+                    mask[*sample as usize].store(1, Relaxed);
+                }
             }
-        }
-    });
+        });
+    }
     let mut words: Vec<u32> = mask.into_iter().map(AtomicU32::into_inner).collect();
     for sample in &receivers.wild {
         words[*sample as usize] = 0;
     }
     for sample in wild_blocked {
-        debug_assert_eq!(sample_state[*sample as usize], KEPT);
         words[*sample as usize] = 1;
     }
     Array::u32([words.len(), 1], words)

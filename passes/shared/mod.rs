@@ -12,6 +12,7 @@ pub mod light_fit;
 pub mod light_frame;
 pub mod predicate;
 pub mod pyramid;
+pub mod receiver_tree;
 pub mod receivers;
 pub mod scan;
 pub mod segments;

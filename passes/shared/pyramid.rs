@@ -125,15 +125,16 @@ impl LightSpace {
         [dot(self.axes[0], offset), dot(self.axes[1], offset), dot(self.axes[2], offset)]
     }
 
-    /// Where the view-sample at `position` is; none when it is wild: too near the light, too far, or beside its view.
+    /// Where the view-sample at `position` is, and whether that can be relied on: not when it is wild, which is too near the
+    /// light, too far, or beside its view.
     #[inline(always)]
-    pub fn spot(&self, position: [f32; 3]) -> Option<Spot> {
+    pub fn project(&self, position: [f32; 3]) -> (Spot, bool) {
         let [x, y, z] = self.turn(minus(position, self.origin));
         let q = 1.0 / z;
         let (u, v) = (x * q, y * q);
-        // The depth itself is lost to rounding where it is tiny against the offset, which the bound on u and v excludes.
-        let tame = q > 1e-30 && q < 1e30 && u.abs() < WILD && v.abs() < WILD;
-        tame.then_some(Spot { u: u as f32, v: v as f32, q: q as f32 })
+        // The depth is lost to rounding where it is tiny against the offset, which the bound on u and v excludes.
+        let tame = (q > 1e-30) & (q < 1e30) & (u.abs() < WILD) & (v.abs() < WILD);
+        (Spot { u: u as f32, v: v as f32, q: q as f32 }, tame)
     }
 
     /// What `caster` can block on this face.

@@ -9,11 +9,15 @@ use super::hard::{OwnMemo, Scene};
 use super::light_frame::Face;
 use super::predicate::Pyramid;
 use super::pyramid::{Cone, LightSpace, Planes, Reach, Spot};
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
+use super::receiver_tree::{self, Trees};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f32x16};
 use rayon::prelude::*;
-use shadowgraph_core::shared::NO_TRIANGLE;
+use std::borrow::Cow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU16, Ordering::Relaxed};
+
+/// Nothing reached.
+const EMPTY: [[f32; 2]; 2] = [[f32::MAX, f32::MIN]; 2];
 
 /// View-samples of a chunk.
 pub const LANES: usize = 16;
@@ -30,15 +34,6 @@ pub struct Chunk {
     pub q: [f32; LANES],
 }
 
-/// What a view-sample is known by outside its chunk.
-#[derive(Clone, Copy, Debug)]
-pub struct Receiver {
-    /// Row of the view-sample.
-    pub sample: u32,
-    /// Triangle it lies on.
-    pub own: u32,
-}
-
 /// One face's part of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct FaceRange {
@@ -53,92 +48,169 @@ pub struct FaceRange {
 }
 
 /// All listed view-samples.
-pub struct Receivers {
+pub struct Receivers<'a> {
     /// Coordinates; place i is lane i % 16 of chunk i / 16.
     pub chunks: Vec<Chunk>,
-    /// Who is at each place.
-    pub who: Vec<Receiver>,
     /// Bit set: blocked, or nobody is there. One word a chunk.
     pub blocked: Vec<AtomicU16>,
+    /// View-samples by list offset; long lists are put in order.
+    pub entries: Cow<'a, [u32]>,
     /// Parts by face.
     pub faces: Vec<FaceRange>,
     /// View-samples that cannot be projected with a bound; their bits in `blocked` are set, and they are to be tested one by one.
     pub wild: Vec<u32>,
+    /// Long lists.
+    pub trees: Trees,
 }
 
-impl Receivers {
+/// What testing a run of places came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tested {
+    /// View-samples newly blocked.
+    pub hits: u32,
+    /// Whether any had been open.
+    pub open: bool,
+}
+
+impl<'a> Receivers<'a> {
     /// Largest |u| and |v| on `face`, at least zero.
     pub fn extent(&self, face: usize) -> [f64; 2] {
         self.faces[face].reach.map(|[low, high]| if low > high { 0.0 } else { f64::from(low.abs().max(high.abs())) })
     }
 
     /// Places the view-samples of `entries` (cells in order, `cell_count` a face, bounded by `offsets`).
-    pub fn gather(scene: &Scene, faces: &[Face], cell_count: usize, offsets: &[u32], entries: &[u32]) -> Self {
-        let mut ranges = Vec::with_capacity(faces.len());
+    pub fn gather(scene: &Scene, faces: &[Face], cell_count: usize, offsets: &[u32], entries: &'a [u32]) -> Self {
+        let mut ranges: Vec<FaceRange> = Vec::with_capacity(faces.len());
         let mut places = 0;
         for (index, face) in faces.iter().enumerate() {
             let (start, end) = (offsets[index * cell_count] as usize, offsets[(index + 1) * cell_count] as usize);
             let ends = [places, places + end - start];
-            let empty = [[f32::MAX, f32::MIN]; 2];
-            ranges.push(FaceRange { space: LightSpace::new(face), shift: places - start, places: ends, reach: empty });
+            ranges.push(FaceRange { space: LightSpace::new(face), shift: places - start, places: ends, reach: EMPTY });
             places = ends[1].next_multiple_of(LANES);
         }
-        let mut chunks = vec![Chunk::default(); places / LANES];
-        let mut who = vec![Receiver { sample: NO_TRIANGLE, own: NO_TRIANGLE }; places];
-        let mut blocked: Vec<AtomicU16> = Vec::new();
-        blocked.resize_with(chunks.len(), AtomicU16::default);
-        let wild = Mutex::new(Vec::new());
-        for range in &mut ranges {
-            let [start, end] = range.places;
-            let span = start / LANES..end.div_ceil(LANES);
-            let list = &entries[start - range.shift..end - range.shift];
-            let space = range.space;
-            range.reach = (&mut chunks[span.clone()], &mut blocked[span.clone()])
-                .into_par_iter()
-                .zip(who[start..span.end * LANES].par_chunks_mut(LANES))
-                .zip(list.par_chunks(LANES))
-                .with_min_len(256)
-                .map(|(((chunk, blocked), who), list)| {
-                    let mut lost = u16::MAX;
-                    for (lane, sample) in list.iter().enumerate() {
-                        who[lane] = Receiver { sample: *sample, own: scene.triangle[*sample as usize] };
-                        if let Some(spot) = space.spot(scene.position[*sample as usize]) {
-                            (chunk.u[lane], chunk.v[lane], chunk.q[lane]) = (spot.u, spot.v, spot.q);
-                            lost &= !(1 << lane);
-                        } else if let Ok(mut wild) = wild.lock() {
-                            wild.push(*sample);
-                        }
-                    }
-                    *blocked.get_mut() = lost;
-                    reach(chunk, !lost)
-                })
-                .reduce(|| [[f32::MAX, f32::MIN]; 2], union);
+        let long = receiver_tree::long_lists(offsets);
+        let places_of = |cell: usize| {
+            let shift = ranges[cell / cell_count].shift;
+            [cell, cell + 1].map(|at| offsets[at] as usize + shift)
+        };
+        let long: Vec<(usize, [usize; 2])> = long.into_iter().map(|cell| (cell, places_of(cell))).collect();
+        let mut entries = Cow::Borrowed(entries);
+        if !long.is_empty() {
+            put_in_order(entries.to_mut(), &long, &ranges, cell_count, scene);
         }
-        let mut wild = wild.into_inner().unwrap_or_default();
-        wild.sort_unstable();
-        Self { chunks, who, blocked, faces: ranges, wild }
+        let mut receivers = Self {
+            chunks: vec![Chunk::default(); places / LANES],
+            blocked: Vec::new(),
+            entries,
+            faces: ranges,
+            wild: Vec::new(),
+            trees: Trees::default(),
+        };
+        receivers.blocked.resize_with(places / LANES, AtomicU16::default);
+        for face in 0..faces.len() {
+            receivers.place_face(scene, face);
+        }
+        receivers.wild.sort_unstable();
+        receivers.trees = Trees::new(&receivers, &long);
+        receivers
     }
 
-    /// Tests the chunk at `index` against a caster: `planes` by the kernel, `settle` for what the kernel leaves. `lanes` are
-    /// those that matter. False when all of them were blocked already.
-    #[inline(always)]
-    pub fn test<S: Simd>(&self, simd: S, index: usize, lanes: u16, planes: &Planes, settle: &mut Settle) -> bool {
-        let open = !self.blocked[index].load(Relaxed) & lanes;
-        if open == 0 {
-            return false;
-        }
-        let left = candidates(simd, planes, &self.chunks[index]) & open;
-        if left != 0 {
-            settle.chunk(self, index, left);
-        }
-        true
+    /// Fills the chunks of `face`.
+    fn place_face(&mut self, scene: &Scene, face: usize) {
+        let FaceRange { space, shift, places: [start, end], .. } = self.faces[face];
+        let span = start / LANES..end.div_ceil(LANES);
+        let wild = Mutex::new(Vec::new());
+        let level = Level::new();
+        let reached = (&mut self.chunks[span.clone()], &mut self.blocked[span])
+            .into_par_iter()
+            .zip(self.entries[start - shift..end - shift].par_chunks(LANES))
+            .with_min_len(256)
+            .fold(Reached::default, |mut reached, ((chunk, blocked), list)| {
+                let missing = u16::MAX.checked_shl(list.len() as u32).unwrap_or(0);
+                let mut positions = [[0.0; LANES]; 3];
+                for (lane, sample) in list.iter().enumerate() {
+                    let position = scene.position[*sample as usize];
+                    for axis in 0..3 {
+                        positions[axis][lane] = position[axis];
+                    }
+                }
+                let lost = dispatch!(level, simd => place(simd, &space, &positions, chunk)) | missing;
+                *blocked.get_mut() = lost;
+                reached.add(chunk, lost);
+                if lost != missing
+                    && let Ok(mut wild) = wild.lock()
+                {
+                    let lanes = (0..list.len()).filter(|lane| lost >> lane & 1 == 1);
+                    wild.extend(lanes.map(|lane| list[lane]));
+                }
+                reached
+            })
+            .reduce(Reached::default, Reached::union);
+        self.faces[face].reach = reached.ends();
+        self.wild.extend(wild.into_inner().unwrap_or_default());
     }
+
+    /// Coordinates of the view-sample at `place`; none when it is blocked, or nobody is there.
+    pub fn spot(&self, place: usize) -> Option<Spot> {
+        let (chunk, lane) = (&self.chunks[place / LANES], place % LANES);
+        let open = self.blocked[place / LANES].load(Relaxed) >> lane & 1 == 0;
+        open.then(|| Spot { u: chunk.u[lane], v: chunk.v[lane], q: chunk.q[lane] })
+    }
+
+    /// Tests the places `[from, to)` against a caster: `planes` by the kernel, `settle` for what the kernel leaves.
+    #[inline(always)]
+    pub fn test_run<S: Simd>(&self, simd: S, [from, to]: [usize; 2], planes: &Planes, settle: &mut Settle) -> Tested {
+        let mut tested = Tested::default();
+        if from >= to {
+            return tested;
+        }
+        let (first, last) = (from / LANES, (to - 1) / LANES);
+        let mut lanes = u16::MAX << (from % LANES);
+        for index in first..=last {
+            if index == last {
+                lanes &= u16::MAX >> (LANES - 1 - (to - 1) % LANES);
+            }
+            let open = !self.blocked[index].load(Relaxed) & lanes;
+            lanes = u16::MAX;
+            if open == 0 {
+                continue;
+            }
+            tested.open = true;
+            let left = candidates(simd, planes, &self.chunks[index]) & open;
+            if left != 0 {
+                tested.hits += settle.chunk(self, index, left);
+            }
+        }
+        tested
+    }
+}
+
+/// Puts the lists of `long` cells in order.
+fn put_in_order(
+    entries: &mut [u32],
+    long: &[(usize, [usize; 2])],
+    ranges: &[FaceRange],
+    cell_count: usize,
+    scene: &Scene,
+) {
+    let mut rest = entries;
+    let mut taken = 0;
+    let mut lists = Vec::with_capacity(long.len());
+    for (cell, places) in long {
+        let range = &ranges[cell / cell_count];
+        let (_, from_here) = rest.split_at_mut(places[0] - range.shift - taken);
+        let (list, behind) = from_here.split_at_mut(places[1] - places[0]);
+        taken = places[1] - range.shift;
+        rest = behind;
+        lists.push((list, places[0], &range.space));
+    }
+    lists.into_par_iter().for_each(|(list, from, space)| receiver_tree::order(list, from, space, scene.position));
 }
 
 /// A caster whose candidates are to be settled, with where it stands.
 pub struct Settle<'a> {
     scene: &'a Scene<'a>,
-    space: &'a LightSpace,
+    face: &'a FaceRange,
     caster: u32,
     /// Its planes in f64 once known; none inside where only the exact predicate can tell.
     cone: Option<Option<Cone>>,
@@ -148,17 +220,23 @@ pub struct Settle<'a> {
 }
 
 impl<'a> Settle<'a> {
-    /// For `caster` on the face of `space`. `cone` if it is at hand: none inside where only the exact predicate can tell.
-    pub fn new(scene: &'a Scene<'a>, space: &'a LightSpace, caster: u32, cone: Option<Option<Cone>>) -> Self {
-        Self { scene, space, caster, cone, memo: OwnMemo::default(), exact: 0 }
+    /// For `caster` on `face`. `cone` if it is at hand: none inside where only the exact predicate can tell.
+    pub fn new(scene: &'a Scene<'a>, face: &'a FaceRange, caster: u32, cone: Option<Option<Cone>>) -> Self {
+        Self { scene, face, caster, cone, memo: OwnMemo::default(), exact: 0 }
     }
 
-    /// Settles the candidates `left` of a chunk and marks the blocked ones.
+    /// What to add to a list offset for a place.
+    #[inline(always)]
+    pub fn shift(&self) -> usize {
+        self.face.shift
+    }
+
+    /// Settles the candidates `left` of a chunk and marks the blocked ones; how many are new.
     #[inline(never)]
-    fn chunk(&mut self, receivers: &Receivers, index: usize, mut left: u16) {
+    fn chunk(&mut self, receivers: &Receivers, index: usize, mut left: u16) -> u32 {
         let corners = &self.scene.triangles[self.caster as usize];
         let chunk = &receivers.chunks[index];
-        let cone = *self.cone.get_or_insert_with(|| match self.space.reach(corners) {
+        let cone = *self.cone.get_or_insert_with(|| match self.face.space.reach(corners) {
             Reach::Cone(cone) => Some(cone),
             Reach::Nothing | Reach::Anything => None,
         });
@@ -166,26 +244,28 @@ impl<'a> Settle<'a> {
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
-            let receiver = receivers.who[index * LANES + lane];
-            if receiver.own == self.caster {
+            let sample = receivers.entries[index * LANES + lane - self.face.shift] as usize;
+            let own = self.scene.triangle[sample];
+            if own == self.caster {
                 continue;
             }
             let spot = Spot { u: chunk.u[lane], v: chunk.v[lane], q: chunk.q[lane] };
             let covers = match cone.and_then(|cone| cone.covers(&spot)) {
                 Some(false) => false,
-                Some(true) => self.scene.admits(&mut self.memo, receiver.own, corners),
+                Some(true) => self.scene.admits(&mut self.memo, own, corners),
                 None => {
                     self.exact += 1;
-                    self.scene.admits(&mut self.memo, receiver.own, corners)
-                        && Pyramid::new(corners, self.scene.light).covers(self.scene.position[receiver.sample as usize])
+                    self.scene.admits(&mut self.memo, own, corners)
+                        && Pyramid::new(corners, self.scene.light).covers(self.scene.position[sample])
                 }
             };
             hits |= u16::from(covers) << lane;
         }
-        if hits != 0 {
-            // The only writers are these; they set bits that no order can change.
-            receivers.blocked[index].fetch_or(hits, Relaxed);
+        if hits == 0 {
+            return 0;
         }
+        // The only writers are these; they set bits that no order can change.
+        (hits & !receivers.blocked[index].fetch_or(hits, Relaxed)).count_ones()
     }
 }
 
@@ -200,19 +280,60 @@ pub fn candidates<S: Simd>(simd: S, planes: &Planes, chunk: &Chunk) -> u16 {
     inside.simd_ge(0.0).to_bitmask() as u16
 }
 
-/// Smallest and largest u, then v, of the lanes in `lanes`.
-fn reach(chunk: &Chunk, lanes: u16) -> [[f32; 2]; 2] {
-    let mut ends = [[f32::MAX, f32::MIN]; 2];
-    for lane in (0..LANES).filter(|lane| lanes >> lane & 1 == 1) {
-        for (ends, at) in ends.iter_mut().zip([chunk.u[lane], chunk.v[lane]]) {
-            *ends = [ends[0].min(at), ends[1].max(at)];
-        }
+/// Projects sixteen positions into `chunk`; the lanes that are wild.
+#[inline(always)]
+fn place<S: Simd>(_: S, space: &LightSpace, positions: &[[f32; LANES]; 3], chunk: &mut Chunk) -> u16 {
+    let mut tame = [0u16; LANES];
+    for lane in 0..LANES {
+        let (spot, is_tame) = space.project([positions[0][lane], positions[1][lane], positions[2][lane]]);
+        (chunk.u[lane], chunk.v[lane], chunk.q[lane]) = (spot.u, spot.v, spot.q);
+        tame[lane] = u16::from(is_tame) << lane;
     }
-    ends
+    !tame.iter().fold(0, |all, bit| all | bit)
 }
 
-fn union(a: [[f32; 2]; 2], b: [[f32; 2]; 2]) -> [[f32; 2]; 2] {
-    [0, 1].map(|axis| [a[axis][0].min(b[axis][0]), a[axis][1].max(b[axis][1])])
+/// Smallest and largest coordinates so far, lane by lane.
+#[derive(Clone, Copy)]
+struct Reached {
+    low: [[f32; LANES]; 2],
+    high: [[f32; LANES]; 2],
+}
+
+impl Default for Reached {
+    fn default() -> Self {
+        Self { low: [[f32::MAX; LANES]; 2], high: [[f32::MIN; LANES]; 2] }
+    }
+}
+
+impl Reached {
+    #[inline(always)]
+    fn add(&mut self, chunk: &Chunk, lost: u16) {
+        for (axis, along) in [&chunk.u, &chunk.v].into_iter().enumerate() {
+            for lane in 0..LANES {
+                let here = lost >> lane & 1 == 0;
+                self.low[axis][lane] = self.low[axis][lane].min(if here { along[lane] } else { f32::MAX });
+                self.high[axis][lane] = self.high[axis][lane].max(if here { along[lane] } else { f32::MIN });
+            }
+        }
+    }
+
+    fn union(mut self, other: Self) -> Self {
+        for axis in 0..2 {
+            for lane in 0..LANES {
+                self.low[axis][lane] = self.low[axis][lane].min(other.low[axis][lane]);
+                self.high[axis][lane] = self.high[axis][lane].max(other.high[axis][lane]);
+            }
+        }
+        self
+    }
+
+    /// Smallest and largest u, then v.
+    fn ends(self) -> [[f32; 2]; 2] {
+        [0, 1].map(|axis| {
+            let low = self.low[axis].iter().fold(f32::MAX, |a, b| a.min(*b));
+            [low, self.high[axis].iter().fold(f32::MIN, |a, b| a.max(*b))]
+        })
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::shared::hard::{Scene, mask};
 use crate::shared::light_frame;
 use crate::shared::predicate::Corners;
 use crate::shared::pyramid::{Planes, Reach};
-use crate::shared::receivers::{FaceRange, LANES, Receivers, Settle};
+use crate::shared::receivers::{FaceRange, Receivers, Settle};
 use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 use shadowgraph_core::cpu::CpuCx;
@@ -18,7 +18,7 @@ const CASTERS_A_TASK: usize = 256;
 struct Walk<'a> {
     scene: Scene<'a>,
     caster_state: &'a [u32],
-    receivers: Receivers,
+    receivers: Receivers<'a>,
     grids: Vec<Grid>,
     extents: Vec<[f64; 2]>,
     side: usize,
@@ -27,6 +27,11 @@ struct Walk<'a> {
 
 /// The CPU function.
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
+    run_at(cx, Level::new())
+}
+
+/// With a given instruction set.
+pub(super) fn run_at(cx: &mut CpuCx, level: Level) -> Result<(), Problem> {
     let faces = light_frame::faces(cx.input("light_frame").as_f32());
     let scene = Scene::new(cx, &faces)?;
     let side = cx.input("list_length").dim(2);
@@ -37,7 +42,7 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let extents = (0..faces.len()).map(|face| receivers.extent(face)).collect();
     let caster_state = cx.input("caster_state").as_u32();
     let walk = Walk { scene, caster_state, receivers, grids, extents, side, offsets };
-    let exact = walk.all(Level::new());
+    let exact = walk.all(level);
     let wild_blocked = scene.blocked_wild(&walk.receivers, caster_state);
     let mask = mask(&walk.receivers, cx.input("sample_state").as_u32(), &wild_blocked);
     cx.count("exact_pairs", exact);
@@ -82,21 +87,38 @@ impl Walk<'_> {
                 (Some(cone), footprint, Planes::new(&cone, self.extents[face]))
             }
         };
-        let mut settle = Settle::new(&self.scene, &range.space, caster as u32, Some(cone));
+        let mut settle = Settle::new(&self.scene, range, caster as u32, Some(cone));
         let cells = face * self.side * self.side;
         for row in footprint.rows[0]..=footprint.rows[1] {
-            let Some([first, last]) = footprint.span(grid, row) else {
-                continue;
-            };
-            let start = cells + row * self.side;
-            let from = self.offsets[start + first] as usize + range.shift;
-            let to = self.offsets[start + last + 1] as usize + range.shift;
-            if from < to {
-                for chunk in from / LANES..=(to - 1) / LANES {
-                    self.receivers.test(simd, chunk, u16::MAX, &planes, &mut settle);
-                }
+            if let Some([first, last]) = footprint.span(grid, row) {
+                let start = cells + row * self.side;
+                self.run_of_cells(simd, [start + first, start + last], &planes, &footprint, &mut settle);
             }
         }
         settle.exact
+    }
+
+    /// Neighbouring cells, first and last.
+    #[inline(always)]
+    fn run_of_cells<S: Simd>(
+        &self,
+        simd: S,
+        cells: [usize; 2],
+        planes: &Planes,
+        footprint: &Footprint,
+        settle: &mut Settle,
+    ) {
+        let receivers = &self.receivers;
+        let shift = settle.shift();
+        let place = |cell: usize| self.offsets[cell] as usize + shift;
+        let [mut from, to] = [place(cells[0]), place(cells[1] + 1)];
+        if from < to && !receivers.trees.is_empty() {
+            for (cell, root) in receivers.trees.between(cells[0], cells[1]) {
+                receivers.test_run(simd, [from, place(*cell as usize)], planes, settle);
+                receivers.trees.test(simd, receivers, *root, planes, &footprint.bounds, settle);
+                from = place(*cell as usize + 1);
+            }
+        }
+        receivers.test_run(simd, [from, to], planes, settle);
     }
 }

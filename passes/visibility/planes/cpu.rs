@@ -3,7 +3,8 @@
 use crate::shared::hard::{Scene, mask};
 use crate::shared::light_frame;
 use crate::shared::pyramid::Planes;
-use crate::shared::receivers::{LANES, Receivers, Settle};
+use crate::shared::receiver_tree::EVERYWHERE;
+use crate::shared::receivers::{Receivers, Settle};
 use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 use shadowgraph_core::cpu::CpuCx;
@@ -15,7 +16,7 @@ const CELLS_A_TASK: usize = 64;
 /// Everything a task reads.
 struct Join<'a> {
     scene: Scene<'a>,
-    receivers: Receivers,
+    receivers: Receivers<'a>,
     offsets: &'a [u32],
     caster_offsets: &'a [u32],
     caster_entries: &'a [u32],
@@ -66,20 +67,19 @@ impl Join<'_> {
         if from == to {
             return 0;
         }
-        let chunks = [from / LANES, (to - 1) / LANES];
-        let lanes = |chunk: usize| {
-            let first = if chunk == chunks[0] { u16::MAX << (from % LANES) } else { u16::MAX };
-            let last = if chunk == chunks[1] { u16::MAX >> (LANES - 1 - (to - 1) % LANES) } else { u16::MAX };
-            first & last
-        };
+        let trees = &self.receivers.trees;
+        let tree = trees.between(cell, cell).first();
         let mut exact = 0;
         let [start, end] = [cell, cell + 1].map(|at| self.caster_offsets[at] as usize);
         for caster in &self.caster_entries[start..end] {
-            let mut settle = Settle::new(&self.scene, &range.space, *caster, None);
-            let mut open = false;
-            for chunk in chunks[0]..=chunks[1] {
-                open |= self.receivers.test(simd, chunk, lanes(chunk), &planes[*caster as usize], &mut settle);
-            }
+            let mut settle = Settle::new(&self.scene, range, *caster, None);
+            let planes = &planes[*caster as usize];
+            let open = if let Some((_, root)) = tree {
+                trees.test(simd, &self.receivers, *root, planes, &EVERYWHERE, &mut settle);
+                !trees.is_full(*root)
+            } else {
+                self.receivers.test_run(simd, [from, to], planes, &mut settle).open
+            };
             exact += settle.exact;
             if !open {
                 break;

@@ -34,6 +34,16 @@ fn random_scenes_have_no_wrong_bit() {
 }
 
 #[test]
+fn long_lists_have_no_wrong_bit() {
+    for seed in 0..12 {
+        let mut case = random(2000 + seed, 20, 3000);
+        case.side = 1;
+        let (outputs, _) = run(&PASS, &with_table(&case, 1)).unwrap();
+        assert_eq!(output(&outputs, "mask").as_u32(), case.mask(), "seed {seed}");
+    }
+}
+
+#[test]
 fn only_listed_casters_count() {
     let case = random(3, 20, 200);
     let mut inputs = with_table(&case, 1);
