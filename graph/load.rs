@@ -56,7 +56,7 @@ impl Graph {
 /// Reads a graph and its bases.
 ///
 /// # Errors
-/// Text that is no RON, or a base that cannot be read.
+/// Text that is no RON or no struct, or a base that cannot be read.
 pub fn load(source: Source, loader: &Loader) -> Result<Graph, Problems> {
     let name = graph_name(&source.name);
     let mut files = Files(vec![source]);
@@ -65,11 +65,11 @@ pub fn load(source: Source, loader: &Loader) -> Result<Graph, Problems> {
     let mut is_whole = true;
     loop {
         let index = chain.len();
-        let Some(tree) = parse(&files.0[index].text, index as u32, &mut findings) else {
+        let tree = parse(&files.0[index].text, index as u32, &mut findings);
+        let Some(file) = tree.and_then(|tree| read(&tree, &mut findings)) else {
             is_whole = false;
             break;
         };
-        let file = read(&tree, &mut findings);
         let base = file.base.clone();
         chain.push(file);
         let Some(base) = base else { break };
@@ -85,11 +85,17 @@ pub fn load(source: Source, loader: &Loader) -> Result<Graph, Problems> {
     if !is_whole {
         return Err(findings.finish(&files, &[]));
     }
+    let says_outputs = chain.iter().any(|file| file.outputs.is_some());
     let mut merge = Merge::default();
     for file in chain.into_iter().rev() {
         merge.apply(file, &mut findings);
     }
     let Merge { doc, inputs, nodes, outputs, axes } = merge;
+    // Outputs that are there and cannot be read are told already.
+    if outputs.is_empty() && (!says_outputs || findings.is_empty()) {
+        let problem = Problem::new(Kind::Missing, "graph has no outputs, so nothing would run");
+        findings.push(Span::new(0, 0, 0), problem.expected("outputs: {\"image\": \"NODE.PORT\"}"));
+    }
     Ok(Graph {
         name,
         doc,
@@ -169,7 +175,7 @@ impl Merge {
                 }
             }
         }
-        for (key, value) in file.outputs {
+        for (key, value) in file.outputs.into_iter().flatten() {
             self.outputs.insert(key.text.clone(), (key, value));
         }
         for (key, values) in file.axes {

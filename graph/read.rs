@@ -15,18 +15,16 @@ const ALTERNATIVE_FIELDS: &[&str] = &["when", "unless", "pass", "params"];
 /// Most nodes of one list, entries of one map: far above any use, far below what hurts.
 const MAX_ENTRIES: usize = 10_000;
 
-/// What the tree of one file says.
-pub(crate) fn read(tree: &Tree, findings: &mut Findings) -> FileWritten {
+/// What the tree of one file says; none when it is no struct.
+pub(crate) fn read(tree: &Tree, findings: &mut Findings) -> Option<FileWritten> {
     let mut reader = Reader { findings };
     let mut file = FileWritten::default();
-    let fields = reader.fields(tree, FILE_FIELDS, "a graph");
-    if let Some(fields) = &fields
-        && !fields.iter().any(|field| field.name == "version")
-    {
+    let fields = reader.fields(tree, FILE_FIELDS, "a graph")?;
+    if !fields.iter().any(|field| field.name == "version") {
         let problem = Problem::new(Kind::Missing, "graph states no version").expected(format!("version: {VERSION}"));
         reader.findings.push(tree.span, problem);
     }
-    for field in fields.unwrap_or_default() {
+    for field in fields {
         let value = &field.value;
         match field.name.as_str() {
             "version" => reader.version(value),
@@ -37,11 +35,11 @@ pub(crate) fn read(tree: &Tree, findings: &mut Findings) -> FileWritten {
             "replace" => file.replace = Some((field.span, reader.nodes(value, "replace"))),
             "add" => file.add = Some((field.span, reader.nodes(value, "add"))),
             "remove" => file.remove = Some((field.span, reader.names(value, "remove"))),
-            "outputs" => file.outputs = reader.wires(value, "outputs", "output"),
+            "outputs" => file.outputs = Some(reader.wires(value, "outputs", "output")),
             _ => file.axes = reader.axes(value),
         }
     }
-    file
+    Some(file)
 }
 
 struct Reader<'a> {

@@ -127,18 +127,13 @@ pub(crate) fn resolve<'g>(
     for (index, written) in graph.nodes.iter().enumerate() {
         nodes.push(resolve_node(index, written, &names, &flags, findings));
     }
-    let mut has_all_outputs = true;
+    let mut has_all_outputs = !graph.outputs.is_empty();
     let mut outputs = Vec::with_capacity(graph.outputs.len());
     for (key, value) in &graph.outputs {
         match check::output(key, value, &names, findings) {
             Some(from) => outputs.push((key.text.as_str(), value.span, from)),
             None => has_all_outputs = false,
         }
-    }
-    if graph.outputs.is_empty() {
-        let problem = Problem::new(Kind::Missing, "graph has no outputs, so nothing would run");
-        findings.push(Span::new(0, 0, 0), problem.expected("outputs: {\"image\": \"NODE.PORT\"}"));
-        has_all_outputs = false;
     }
     check::axes(&graph.axes, &names, findings);
     Resolved { nodes, inputs: names.inputs, outputs, has_all_outputs }

@@ -34,7 +34,7 @@ pub(crate) struct FileWritten {
     pub replace: Option<(Span, Vec<NodeWritten>)>,
     pub add: Option<(Span, Vec<NodeWritten>)>,
     pub remove: Option<(Span, Vec<Name>)>,
-    pub outputs: Vec<(Name, Name)>,
+    pub outputs: Option<Vec<(Name, Name)>>,
     pub axes: Vec<(Name, Vec<Scalar>)>,
 }
 

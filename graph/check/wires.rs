@@ -13,13 +13,13 @@ pub(crate) fn wires(index: usize, written: &[(Name, Name)], names: &Names, findi
     let id = names.ids[index];
     let mut wires = Vec::with_capacity(written.len());
     for (key, value) in written {
-        let mut port = stage.port(&key.text).filter(|port| port.is_input());
+        let mut port = stage.inputs().find(|port| port.name == key.text);
         if port.is_none() {
             let known = stage.ports.iter().filter(|port| port.is_input()).map(|port| port.name);
             let problem =
                 Problem::new(Kind::UnknownName, format!("stage `{}` has no input `{}`", stage.name, key.text));
             findings.push(key.span, problem.node(id).remedy(did_you_mean(&key.text, known.clone())));
-            port = nearest(&key.text, known).and_then(|near| stage.port(near));
+            port = nearest(&key.text, known).and_then(|near| stage.inputs().find(|port| port.name == near));
         }
         let from = source(value, names);
         if let Err((problem, _)) = &from {
@@ -104,12 +104,13 @@ fn source(name: &Name, names: &Names) -> Result<Option<From>, (Problem, Option<F
     let Some(stage) = names.stages[node] else {
         return problem.map_or(Ok(None), |problem| Err((problem, None)));
     };
-    if let Some(found) = stage.port(port).filter(|port| !port.is_input()) {
+    if let Some(found) = stage.outputs().find(|output| output.name == port) {
         let from = From::Node(node, found);
         return problem.map_or(Ok(Some(from)), |problem| Err((problem, Some(from))));
     }
     let known = stage.ports.iter().filter(|port| !port.is_input()).map(|port| port.name);
-    let near = nearest(port, known.clone()).and_then(|near| stage.port(near)).map(|port| From::Node(node, port));
+    let near = nearest(port, known.clone()).and_then(|near| stage.outputs().find(|output| output.name == near));
+    let near = near.map(|port| From::Node(node, port));
     let problem = problem.unwrap_or_else(|| {
         let message = match stage.port(port) {
             Some(_) => format!("`{port}` of node `{id}` is an input"),

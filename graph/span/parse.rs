@@ -29,11 +29,12 @@ pub(crate) fn parse(text: &str, file: u32, findings: &mut Findings) -> Option<Tr
     }
     let mut found = Findings::default();
     let tree = whole(text, file, &mut found);
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
     if found.is_empty()
-        && let Err(error) = ron::from_str::<ron::Value>(text)
+        && let Err(error) = ron::from_str::<ron::Value>(body)
     {
         // We took what RON does not: RON decides, or files would not be readable elsewhere.
-        let start = byte_of(text, error.span.start.line, error.span.start.col);
+        let start = text.len() - body.len() + byte_of(body, error.span.start.line, error.span.start.col);
         found.push(Span::new(file, start, start), Problem::new(Kind::Syntax, error.code.to_string()));
         findings.extend(&found);
         return None;
@@ -179,18 +180,15 @@ impl Parser<'_> {
     /// A struct if the first item is `name:`, else a tuple.
     fn round(&mut self, opened: (usize, usize)) -> Result<Data, Fault> {
         let named = matches!(self.token, Token::Close(')')) || {
-            let is_word = matches!(self.token, Token::Word(_));
-            is_word && self.colon_follows()
+            // `(version 1` lacks a colon, not a comma.
+            let is_name = |next| !matches!(next, Token::Comma | Token::Open(_) | Token::Close(_) | Token::End);
+            matches!(self.token, Token::Word(_)) && self.lexer.clone().next().is_ok_and(|(next, ..)| is_name(next))
         };
         if named {
             Ok(Data::Struct(self.items(')', opened, Self::field)?))
         } else {
             Ok(Data::Tuple(self.items(')', opened, Self::value)?))
         }
-    }
-
-    fn colon_follows(&self) -> bool {
-        self.lexer.clone().next().is_ok_and(|(token, ..)| token == Token::Colon)
     }
 
     fn field(&mut self) -> Result<Field, Fault> {

@@ -28,7 +28,7 @@ shadow_lookup: depth light_frame position sample_state -> mask visible
 combine: mask sample_state -> visible
 bent_light: triangles corner_vertex face_offset faces light -> corner_light
 shade: position normal pixel visible triangles corner_light camera light -> image
-blur: mask -> mask
+blur: mask -> blurred
 ";
 
 /// Stage/pass, backends it runs on, inputs it ignores, parameters.
@@ -84,6 +84,7 @@ fn port(name: &'static str) -> Port {
         "list_length" | "length" | "caster_length" => Port::new(Out, name, U32, "length", "F S S"),
         "list_offset" | "offset" | "caster_offset" => Port::new(Out, name, U32, "offset", "C+1"),
         "position" | "normal" => Port::new(Out, name, F32, name, "P 3").space(Space::World),
+        "mask" | "blurred" => Port::new(Out, name, U32, "mask", "P M"),
         "depth" => Port::new(Out, name, F32, name, "F D D").storage(Storage::DepthTexture),
         "pair_cell" => Port::new(Out, name, U32, "cell", "E"),
         "pair_slot" => Port::new(Out, name, U32, "slot", "E"),

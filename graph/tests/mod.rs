@@ -1,9 +1,13 @@
 //! Graphs against a catalogue of passes that do nothing.
 
+mod drawings;
 mod fake;
+mod mistakes;
 mod plans;
+mod properties;
+mod speed;
 
-use crate::{Graph, Overrides, Source, load, plan};
+use crate::{Graph, Keep, Overrides, Source, load, plan};
 use fake::catalogue;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::input;
