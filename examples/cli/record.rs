@@ -5,6 +5,7 @@ use crate::outcome::{NodeRecord, Outcome, Spread};
 use serde::Serialize;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::plan::Plan;
+use shadowgraph_graph::plan_id;
 
 /// Which device and driver.
 #[derive(Clone, Debug, Serialize)]
@@ -98,7 +99,7 @@ impl RunRecord {
             version: env!("CARGO_PKG_VERSION"),
             wgpu_version: WGPU_VERSION,
             graph: plan.name.clone(),
-            graph_hash: graph_hash(plan),
+            graph_hash: plan_id(plan),
             size: job.image,
             device,
             scene: SceneRecord {
@@ -124,16 +125,3 @@ impl RunRecord {
 
 /// Major version this program is built with.
 pub const WGPU_VERSION: &str = "30";
-
-/// FNV-1a over nodes, passes, parameters, backends and wiring of a plan: equal graphs have equal numbers on every machine.
-pub fn graph_hash(plan: &Plan) -> String {
-    let mut text = String::new();
-    for node in &plan.nodes {
-        let wires: Vec<_> = node.inputs.iter().map(|(port, slot)| (port, &plan.slots[*slot].name)).collect();
-        text.push_str(&format!("{} {:?} {:?} {:?} {wires:?}\n", node.id, node.pass, node.params.0, node.on));
-    }
-    let hash = text
-        .bytes()
-        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-    format!("{hash:016x}")
-}

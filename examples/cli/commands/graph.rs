@@ -7,7 +7,7 @@ use shadowgraph_core::facts::Facts;
 use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::plan::Backend;
 use shadowgraph_core::problem::{Place, Problem, Problems};
-use shadowgraph_graph::{Keep, builtin_names, load};
+use shadowgraph_graph::{Keep, builtin_names, describe, drawing, load};
 
 /// The text asked for.
 ///
@@ -23,7 +23,12 @@ pub fn text(catalogue: &Catalogue, args: &GraphArgs) -> Result<String, Problems>
     let backend = if args.backend == BackendChoice::Wgpu { Backend::Wgpu } else { Backend::Cpu };
     let facts = facts(&args.fact)?;
     let plan = plan(&args.graph, catalogue, Some(&facts), backend, Keep::OutputsOnly)?;
-    Ok(format!("{:#?}\n", plan.steps))
+    Ok(match (args.dot, args.mermaid, args.svg) {
+        (true, _, _) => drawing::dot(&plan),
+        (_, true, _) => drawing::mermaid(&plan),
+        (_, _, true) => drawing::svg(&plan),
+        _ => describe(&plan),
+    })
 }
 
 fn list() -> Result<String, Problems> {
