@@ -109,3 +109,31 @@ impl Selection {
         resolved.nodes[index].guard.holds(self.world)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn worlds_that_cannot_be_are_not_checked() {
+        let bits = |names: &[&str]| names.iter().filter_map(|name| fact_bit(name)).sum::<u32>();
+        let both = bits(&["light_is_point", "light_is_planar"]);
+        // A point lies in a plane: three of four.
+        let possible: Vec<u32> =
+            (0..4).map(|k| bits(&["light_is_point"]) * (k & 1) + bits(&["light_is_planar"]) * (k >> 1)).collect();
+        let kept: Vec<u32> = possible.into_iter().filter(|world| World(*world).can_be(both)).collect();
+        assert_eq!(kept, [0, bits(&["light_is_planar"]), both]);
+        // A fact that nobody asks for rules nothing out.
+        assert!(World(bits(&["light_is_point"])).can_be(bits(&["light_is_point"])));
+        assert!(!World(bits(&["scene_is_empty", "light_inside_scene"])).can_be(u32::MAX));
+    }
+
+    #[test]
+    fn a_guard_says_why() {
+        let inside = fact_bit("light_inside_scene").unwrap_or_default();
+        let guard = Guard { when: inside, unless: fact_bit("scene_is_empty").unwrap_or_default() };
+        assert!(guard.holds(World(inside)) && !guard.holds(World(0)) && !guard.holds(World(inside | guard.unless)));
+        assert_eq!(guard.text(World(inside)), "light_inside_scene holds, scene_is_empty does not hold");
+        assert_eq!(guard.text(World(guard.unless)), "light_inside_scene does not hold, scene_is_empty holds");
+    }
+}

@@ -2,6 +2,7 @@
 
 mod drawings;
 mod fake;
+mod loading;
 mod mistakes;
 mod plans;
 mod properties;
