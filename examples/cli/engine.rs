@@ -94,7 +94,12 @@ impl Machine {
     /// A node reports a problem, memory does not suffice, a value overflows its buffer past growing.
     pub fn run(&self, plan: &Plan, job: &Job, repeat: u32, progress: &Progress) -> Result<Outcome, Problem> {
         let inputs = job.inputs();
-        let mut outcome = Outcome { values: Store::new(plan), nodes: node_records(plan), frames_millis: Vec::new() };
+        let mut outcome = Outcome {
+            values: Store::new(plan),
+            nodes: node_records(plan),
+            frames_millis: Vec::new(),
+            runs_count: repeat,
+        };
         let (rounds, warm_ups) = if shadowgraph_cpu::runs_all(plan) { (repeat, u32::from(repeat > 1)) } else { (1, 0) };
         for round in 0..rounds + warm_ups {
             let mut store = Store::new(plan);

@@ -10,8 +10,10 @@ pub struct Outcome {
     pub values: Store,
     /// Nodes in the order of the plan.
     pub nodes: Vec<NodeRecord>,
-    /// Whole runs, wall clock, milliseconds, in order of time.
+    /// Whole runs, wall clock, milliseconds, in order of time; one median of all where the device repeated them.
     pub frames_millis: Vec<f64>,
+    /// Timed runs; with more than one there was a warm-up.
+    pub runs_count: u32,
 }
 
 /// One node in a run's record.

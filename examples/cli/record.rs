@@ -52,7 +52,7 @@ pub struct RunRecord {
     /// Whole runs, milliseconds.
     pub frame_millis: Spread,
     /// Number of timed runs.
-    pub runs_count: usize,
+    pub runs_count: u32,
 }
 
 /// The scene in a record.
@@ -118,7 +118,7 @@ impl RunRecord {
             notes: job.notes.clone(),
             nodes: nodes.collect(),
             frame_millis: Spread::of(&outcome.frames_millis),
-            runs_count: outcome.frames_millis.len(),
+            runs_count: outcome.runs_count,
         }
     }
 }
