@@ -8,14 +8,13 @@ use shadowgraph_core::array::Array;
 use shadowgraph_core::plan::{Backend, Plan};
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_cpu::{Progress, Store};
-use shadowgraph_wgpu::adapter::Wanted;
 use shadowgraph_wgpu::{Options, Session};
 use std::ops::Range;
 use std::time::Instant;
 
 /// What nodes can run on.
 pub struct Machine {
-    session: Option<Session>,
+    session: Option<&'static Session>,
     /// Where nodes run that are not pinned.
     pub default_backend: Backend,
     reason: String,
@@ -31,11 +30,11 @@ impl Machine {
         match choice {
             BackendChoice::Cpu => Ok(cpu("asked for")),
             BackendChoice::Wgpu => Ok(Self {
-                session: Some(Session::new(&Wanted::default())?),
+                session: Some(Session::shared()?),
                 default_backend: Backend::Wgpu,
                 reason: "asked for".into(),
             }),
-            BackendChoice::Auto => match Session::new(&Wanted::default()) {
+            BackendChoice::Auto => match Session::shared() {
                 Ok(session) if session.facts().device_type != "cpu" => Ok(Self {
                     session: Some(session),
                     default_backend: Backend::Wgpu,
@@ -56,7 +55,7 @@ impl Machine {
     /// No adapter exists.
     pub fn ready_for(&mut self, plan: &Plan) -> Result<(), Problem> {
         if self.session.is_none() && plan.nodes.iter().any(|node| node.on == Backend::Wgpu) {
-            self.session = Some(Session::new(&Wanted::default())?);
+            self.session = Some(Session::shared()?);
         }
         Ok(())
     }
