@@ -52,7 +52,8 @@ pub fn answer(
         if !(from.is_finite() && to.is_finite()) {
             return false;
         }
-        let ray = Ray::new(from, to - from, 0.0, 1.0);
+        // A hit at 0 is a triangle whose plane holds the view-sample, which is seen edge-on.
+        let ray = Ray::new(from, to - from, f32::MIN_POSITIVE, 1.0);
         // obvhs takes a hit at tmax for a miss; no triangle is hit past it.
         !tree.ray_traverse_miss(Ray { tmax: 1.0f32.next_up(), ..ray }, |_, place| {
             let (id, corners) = &leaves[place];

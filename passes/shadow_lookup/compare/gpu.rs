@@ -1,0 +1,15 @@
+//! One dispatch.
+
+use crate::shared::{light_frame, shadow_lookup, shadow_map};
+use shadowgraph_core::problem::Problem;
+use shadowgraph_core::record::GpuCx;
+use shadowgraph_core::shared::PRELUDE;
+
+/// Everything the kernel is made of.
+pub const PIECES: &[&str] =
+    &[PRELUDE, light_frame::WGSL, shadow_map::WGSL, shadow_lookup::WGSL, include_str!("kernel.wgsl")];
+
+/// The recipe.
+pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
+    super::super::dispatch(cx, "shadow_lookup/compare", PIECES, "compare", 1)
+}

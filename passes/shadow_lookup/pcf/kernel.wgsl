@@ -1,0 +1,4 @@
+@compute @workgroup_size(64)
+fn pcf(@builtin(global_invocation_id) id: vec3<u32>) {
+    lookup_write(linear_index(id), lookup.kernel);
+}
