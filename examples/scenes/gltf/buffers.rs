@@ -71,7 +71,7 @@ fn from_data_uri(source: &Source, path: &str, uri: &str) -> Result<Vec<u8>, Prob
 }
 
 /// Bytes of base64 text with or without padding; else the place of the first wrong character.
-fn base64(text: &[u8]) -> Result<Vec<u8>, usize> {
+pub(super) fn base64(text: &[u8]) -> Result<Vec<u8>, usize> {
     let end = text.iter().position(|byte| *byte == b'=').unwrap_or(text.len());
     if let Some(place) = text[end..].iter().position(|byte| *byte != b'=') {
         return Err(end + place);

@@ -174,3 +174,6 @@ fn check_triangle_count(reader: &Reader, nodes: &Nodes) -> Result<(), Problem> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

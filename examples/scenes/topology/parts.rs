@@ -50,14 +50,16 @@ pub fn find_parts(positions: &[[[f32; 3]; 3]], shapes: &[u32]) -> Parts {
     parts
 }
 
-struct Welded {
+/// Triangles by part.
+pub(super) struct Welded {
     /// Part of each given triangle.
-    part_of: Vec<u32>,
-    /// By part.
-    closed: Vec<bool>,
+    pub part_of: Vec<u32>,
+    /// Whether it is closed, by part.
+    pub closed: Vec<bool>,
 }
 
-fn weld(positions: &[[[f32; 3]; 3]], triangles: &[u32], group: impl Fn(u32) -> u32) -> Welded {
+/// Parts of some triangles, which meet where positions and groups are equal.
+pub(super) fn weld(positions: &[[[f32; 3]; 3]], triangles: &[u32], group: impl Fn(u32) -> u32) -> Welded {
     let mut vertices = Intern::<4>::with_capacity(triangles.len());
     let corner_vertex: Vec<[u32; 3]> = triangles
         .iter()

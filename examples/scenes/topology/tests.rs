@@ -98,3 +98,20 @@ fn interning_many_keys_gives_each_its_own_number() {
     }
     assert!((0..100_000).rev().all(|index| table.number(key(index)) == index));
 }
+
+#[test]
+fn a_part_around_the_eye_is_opened_and_no_other() {
+    let positions = [tetrahedron(0.0), tetrahedron(5.0)].concat();
+    let scene = |eye: [f32; 3]| {
+        let mut scene = shadowgraph_core::scene::Scene { positions: positions.clone(), ..Default::default() };
+        scene.flags = vec![flag::CLOSED | flag::TWO_SIDED; 8];
+        (open_parts_around(&mut scene, eye), scene.flags)
+    };
+    let (closed, open) = ([flag::CLOSED | flag::TWO_SIDED; 4], [flag::TWO_SIDED; 4]);
+    assert_eq!(scene([0.1, 0.1, 0.1]), (1, [open, closed].concat()));
+    assert_eq!(scene([5.1, 0.1, 0.1]), (1, [closed, open].concat()));
+    // On a face, where nothing can be sure.
+    assert_eq!(scene([0.2, 0.2, 0.0]).0, 1);
+    assert_eq!(scene([0.5, 0.5, 0.5]), (0, [closed, closed].concat()));
+    assert_eq!(scene([0.2, 0.2, -0.001]).0, 0);
+}
