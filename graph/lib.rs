@@ -55,10 +55,11 @@
 //! )
 //! ```
 //!
-//! `remove` comes first, then `replace`, then `add`. In a replaced node `params` and `in` are laid over entry by entry,
-//! `choose: []` drops the alternatives, and a stated `stage` makes the node wholly new. Parameters that the base wrote for
-//! another pass are used where the new pass has them, else listed as left out. `outputs` and `axes` are laid over entry by
-//! entry; `inputs` and `doc` are the file's own if given.
+//! `remove` comes first, then `replace`, then `add`; the base's outputs of a removed node go with it unless it is added
+//! anew. In a replaced node `params` and `in` are laid over entry by entry, `choose: []` drops the alternatives, and a
+//! stated `stage` makes the node wholly new. Parameters that the base wrote for another pass are used where the new pass
+//! has them, else listed as left out. `outputs` and `axes` are laid over entry by entry; `inputs` and `doc` are the file's
+//! own if given.
 //!
 //! `axes` lists what sweeps range over, `NODE: [passes]` and `NODE.PARAM: [values]`; [`variants()`] makes every combination:
 //!

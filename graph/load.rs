@@ -154,7 +154,8 @@ impl Merge {
         let has_base = file.base.is_some();
         self.doc = file.doc.map_or(std::mem::take(&mut self.doc), |doc| doc.text);
         self.inputs = file.inputs.or(self.inputs.take());
-        for name in file.remove.filter(|_| has_base).into_iter().flat_map(|(_, names)| names) {
+        let removed: Vec<Name> = file.remove.filter(|_| has_base).map_or(Vec::new(), |(_, names)| names);
+        for name in &removed {
             if self.nodes.shift_remove(&name.text).is_none() {
                 findings.push(name.span, self.unknown(&name.text, "removes"));
             }
@@ -178,6 +179,12 @@ impl Merge {
         for (key, value) in file.outputs.into_iter().flatten() {
             self.outputs.insert(key.text.clone(), (key, value));
         }
+        // The base's outputs of a node that is gone go with it.
+        self.outputs.retain(|_, (_, value)| {
+            let id = value.text.split('.').next().unwrap_or_default();
+            let is_removed = |name: &Name| name.text == id && value.span.is_older_than(name.span);
+            self.nodes.contains_key(id) || !removed.iter().any(is_removed)
+        });
         for (key, values) in file.axes {
             self.axes.insert(key.text.clone(), (key, values));
         }

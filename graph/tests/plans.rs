@@ -236,6 +236,16 @@ fn files_state_their_differences() {
 }
 
 #[test]
+fn outputs_go_with_the_node_that_is_removed() {
+    let names = |plan: &Plan| plan.outputs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    let plan = variant("hard", r#"remove: ["shade"]"#, &Overrides::default());
+    assert_eq!(names(&plan), ["mask", "visible"]);
+    assert_eq!(left_out(&plan, "bent_light"), Some("nothing reads its outputs"));
+    let anew = r#"remove: ["shade"], add: [(id: "shade", pass: "bent_lambert")]"#;
+    assert_eq!(names(&variant("hard", anew, &Overrides::default())), ["image", "mask", "visible"]);
+}
+
+#[test]
 fn inputs_can_be_narrowed() {
     let text = r#"(version: 1, inputs: ["triangles", "light_samples"], nodes: [(id: "casters")], outputs: {"c": "casters.caster_state"})"#;
     assert_eq!(
