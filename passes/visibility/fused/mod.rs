@@ -11,6 +11,7 @@
 //! sample; more is an error.
 
 mod cpu;
+mod gpu;
 #[cfg(test)]
 mod tests;
 
@@ -24,7 +25,7 @@ pub static PASS: Pass = Pass {
     stage: &STAGE,
     doc: "Tests the view-samples of every cell under each caster's footprint at once, without a caster table.",
     source: "Sintorn 2008, sections 3.2 and 3.3; Aila, Laine 2004, section 5.1",
-    ignores: &["cell", "caster_offset", "caster_entries"],
+    ignores: &["caster_offset", "caster_entries"],
     params: &[],
     counters: &[Counter {
         name: "exact_pairs",
@@ -35,7 +36,7 @@ pub static PASS: Pass = Pass {
     features: &[],
     size,
     cpu: Some(cpu::run),
-    gpu: None,
+    gpu: Some(gpu::record),
 };
 
 fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {

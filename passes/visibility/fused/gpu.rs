@@ -1,0 +1,107 @@
+//! The recipe: pack the view-samples, test small casters, share out large ones, decide what is doubtful.
+
+use crate::shared::light_frame;
+use shadowgraph_core::problem::{Kind, Problem};
+use shadowgraph_core::record::{Bind, Command, Dispatch, GpuCx, Groups, Shader, Target};
+use shadowgraph_core::shared::{GROUP, PRELUDE};
+
+const PREPARE: &[&str] = &[
+    PRELUDE,
+    light_frame::WGSL,
+    include_str!("../../shared/predicate.wgsl"),
+    include_str!("../../shared/pyramid.wgsl"),
+    include_str!("prepare.wgsl"),
+];
+const SHARE: &[&str] = &[PRELUDE, include_str!("share.wgsl")];
+const KERNEL: &[&str] = &[
+    PRELUDE,
+    light_frame::WGSL,
+    include_str!("../../shared/predicate.wgsl"),
+    include_str!("../../shared/pyramid.wgsl"),
+    include_str!("../../shared/footprint.wgsl"),
+    include_str!("kernel.wgsl"),
+];
+const FINISH: &[&str] = &[PRELUDE, include_str!("finish.wgsl")];
+
+/// View-samples that one invocation of a shared caster tests at most; `ROW_SAMPLES` in the kernel.
+const ROW_SAMPLES: usize = 2048;
+/// Queues of casters.
+const QUEUES: usize = 4;
+
+/// Records the pass.
+pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
+    let triangle_count = cx.dim("triangles", 0);
+    let sample_count = cx.dim("position", 0);
+    let [face_count, side] = [cx.dim("list_length", 0), cx.dim("list_length", 1)];
+    let cell_count = cx.words("list_length");
+    if cx.dim("light_samples", 0) != 1 {
+        return Err(Problem::new(Kind::Unsupported, "this pass answers for one light sample")
+            .port("light_samples")
+            .expected("1 row")
+            .found(format!("{} rows", cx.dim("light_samples", 0)))
+            .remedy("use a soft graph for an area light"));
+    }
+    let packed = cx.scratch("fused_packed", 4 * sample_count);
+    let blocked = cx.scratch("fused_blocked", sample_count);
+    let queue = cx.scratch("fused_queue", QUEUES * face_count * triangle_count);
+    let queued = cx.scratch("fused_queued", QUEUES + face_count);
+    cx.zero(queued);
+    let bind = vec![
+        Bind::Uniform(vec![sample_count as u32, cell_count as u32, side as u32, 0]),
+        Bind::Read(Target::Port("triangles")),
+        Bind::Read(Target::Port("light_frame")),
+        Bind::Read(Target::Port("light_samples")),
+        Bind::Read(Target::Port("position")),
+        Bind::Read(Target::Port("triangle")),
+        Bind::Read(Target::Port("cell")),
+        Bind::Read(Target::Port("list_offset")),
+        Bind::Read(Target::Port("list_entries")),
+        Bind::ReadWrite(packed),
+        Bind::ReadWrite(blocked),
+        Bind::ReadWrite(queued),
+        Bind::Read(Target::Port("sample_state")),
+        Bind::ReadWrite(Target::Port("mask")),
+    ];
+    cx.dispatch("fused/prepare", PREPARE, "fused_prepare", bind, sample_count, GROUP);
+
+    let shares = sample_count.div_ceil(GROUP * ROW_SAMPLES).max(1) as u32;
+    let bind = vec![
+        Bind::Uniform(vec![triangle_count as u32, face_count as u32, side as u32, shares, 0]),
+        Bind::Read(Target::Port("triangles")),
+        Bind::Read(Target::Port("caster_state")),
+        Bind::Read(Target::Port("light_frame")),
+        Bind::Read(Target::Port("light_samples")),
+        Bind::Read(Target::Port("list_offset")),
+        Bind::Read(Target::Port("list_entries")),
+        Bind::Read(Target::Port("position")),
+        Bind::Read(Target::Port("triangle")),
+        Bind::Read(packed),
+        Bind::ReadWrite(blocked),
+        Bind::ReadWrite(queue),
+        Bind::ReadWrite(queued),
+        Bind::ReadWrite(Target::Counters),
+    ];
+    cx.dispatch("fused", KERNEL, "fused", bind.clone(), triangle_count, GROUP);
+    for (kind, label, entry, casters, shares) in [
+        (0, "fused/rows", "fused_rows", 8, 1),
+        (1, "fused/shares", "fused_shares", 1, shares),
+        (2, "fused/row_doubts", "fused_row_doubts", 1, 1),
+        (3, "fused/share_doubts", "fused_share_doubts", 1, shares),
+    ] {
+        let groups = cx.scratch("fused_groups", 3);
+        let share = vec![Bind::Uniform(vec![casters, shares, kind]), Bind::Read(queued), Bind::ReadWrite(groups)];
+        cx.dispatch("fused/share", SHARE, "fused_share", share, 1, 1);
+        let shader = Shader { pieces: KERNEL, constants: Vec::new() };
+        let groups = Groups::Indirect(groups, 0);
+        cx.push(Command::Dispatch(Dispatch { label, shader, entry, bind: bind.clone(), groups }));
+    }
+    let bind = vec![
+        Bind::Uniform(vec![sample_count as u32, cell_count as u32]),
+        Bind::Read(Target::Port("list_offset")),
+        Bind::Read(Target::Port("list_entries")),
+        Bind::Read(blocked),
+        Bind::ReadWrite(Target::Port("mask")),
+    ];
+    cx.dispatch("fused/finish", FINISH, "fused_finish", bind, sample_count, GROUP);
+    Ok(())
+}
