@@ -16,7 +16,7 @@ mod gpu;
 mod tests;
 
 use super::STAGE;
-use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
+use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
 use shadowgraph_core::size::SizeCx;
 
 /// The pass.
@@ -29,11 +29,11 @@ pub static PASS: Pass = Pass {
     params: &[],
     counters: &[Counter {
         name: "exact_pairs",
-        doc: "(view-sample, caster) pairs that only exact arithmetic could decide; 0 on a GPU, which has none",
+        doc: "(view-sample, caster) pairs that only exact arithmetic, on a GPU that of two floats, could decide",
         kind: CounterKind::Info,
     }],
     contract: Contract::WrongBits(1e-5),
-    features: &[],
+    features: &[Feature::IndirectExecution],
     size,
     cpu: Some(cpu::run),
     gpu: Some(gpu::record),

@@ -30,7 +30,7 @@ pub static PASS: Pass = Pass {
     params: &[],
     counters: &[Counter {
         name: "exact_pairs",
-        doc: "(view-sample, caster) pairs that only exact arithmetic could decide; 0 on a GPU, which has none",
+        doc: "(view-sample, caster) pairs that only exact arithmetic, on a GPU that of two floats, could decide",
         kind: CounterKind::Info,
     }],
     contract: Contract::WrongBits(1e-5),
