@@ -1,14 +1,16 @@
 //! Which cell each view-sample falls in: the first step of both passes.
 
 use crate::ports;
-use crate::shared::light_frame::{Face, cell_of, faces};
+use crate::shared::light_frame::{Face, cells_of, faces};
 use rayon::prelude::*;
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::shared::{KEPT, NO_CELL};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// View-samples one task takes: long enough to hide the hand-over, short enough to share out.
-pub const CHUNK: usize = 1 << 13;
+const CHUNK: usize = 1 << 13;
+/// View-samples placed before any is counted: the two loops run better apart.
+const BLOCK: usize = 256;
 
 /// What the passes of this stage read.
 pub struct Samples<'a> {
@@ -38,28 +40,23 @@ impl<'a> Samples<'a> {
         self.faces.len() * self.side * self.side
     }
 
-    /// Cell and depth of view-sample `index`; none when it is not kept or no face sees it.
-    #[inline]
-    pub fn place(&self, index: usize) -> Option<(usize, f32)> {
-        if self.states[index] == KEPT { cell_of(&self.faces, self.positions[index].into(), self.side) } else { None }
-    }
-
     /// Calls `list` with cell and depth of every placed view-sample, in parallel, and stores what it returns as its slot.
     /// Returns the cells, the slots and how many kept view-samples no face sees.
     pub fn each(&self, list: impl Fn(usize, f32) -> u32 + Sync) -> (Vec<u32>, Vec<u32>, u64) {
         let count = self.positions.len();
         let (mut cells, mut slots) = (vec![0; count], vec![0; count]);
-        let chunks = cells.par_chunks_mut(CHUNK).zip(slots.par_chunks_mut(CHUNK)).enumerate();
-        let unplaced = chunks.map(|(chunk, (cells, slots))| {
-            let mut unplaced = 0u64;
-            for (at, (cell, slot)) in cells.iter_mut().zip(slots).enumerate() {
-                let index = chunk * CHUNK + at;
-                match self.place(index) {
-                    Some((placed, depth)) => (*cell, *slot) = (placed as u32, list(placed, depth)),
-                    None => {
-                        *cell = NO_CELL;
-                        unplaced += u64::from(self.states[index] == KEPT);
-                    }
+        let chunks = cells.par_chunks_mut(BLOCK).zip(slots.par_chunks_mut(BLOCK));
+        let chunks = chunks.zip(self.positions.par_chunks(BLOCK)).zip(self.states.par_chunks(BLOCK));
+        let unplaced = chunks.with_min_len(CHUNK / BLOCK).map(|(((cells, slots), positions), states)| {
+            let mut depths = [0.0; BLOCK];
+            cells_of(&self.faces, positions, self.side, cells, &mut depths);
+            let mut unplaced = 0;
+            for (((cell, slot), depth), state) in cells.iter_mut().zip(slots).zip(depths).zip(states) {
+                if *state == KEPT && depth > 0.0 {
+                    *slot = list(*cell as usize, depth);
+                } else {
+                    *cell = NO_CELL;
+                    unplaced += u64::from(*state == KEPT);
                 }
             }
             unplaced

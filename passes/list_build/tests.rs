@@ -2,7 +2,7 @@
 
 use super::place::Samples;
 use super::{Lists, atomic_counters, sort};
-use crate::shared::light_frame::Face;
+use crate::shared::light_frame::{Face, cell_of};
 use glam::Vec3;
 use shadowgraph_core::shared::{BACKGROUND, FACING_AWAY, KEPT, NO_CELL};
 
@@ -102,7 +102,8 @@ fn check(samples: &Samples, lists: &Lists, kept: usize, text: &str) {
     let mut seen: Vec<Vec<bool>> = lists.length.iter().map(|length| vec![false; *length as usize]).collect();
     let mut far = vec![0.0f32; lists.far.len()];
     for index in 0..samples.positions.len() {
-        let Some((cell, depth)) = samples.place(index) else {
+        let placed = cell_of(&samples.faces, samples.positions[index].into(), samples.side);
+        let Some((cell, depth)) = placed.filter(|_| samples.states[index] == KEPT) else {
             assert_eq!(lists.cell[index], NO_CELL, "{text}");
             continue;
         };

@@ -79,9 +79,10 @@ impl Face {
     #[inline]
     pub fn texel(&self, u: f32, v: f32, side: usize) -> [usize; 2] {
         let last = side as f32 - 1.0;
-        let column = ((u - self.window_low[0]) / self.window_size[0] * side as f32).floor().clamp(0.0, last);
-        let row = ((v - self.window_low[1]) / self.window_size[1] * side as f32).floor().clamp(0.0, last);
-        [column as usize, row as usize]
+        let column = (u - self.window_low[0]) / self.window_size[0] * side as f32;
+        let row = (v - self.window_low[1]) / self.window_size[1] * side as f32;
+        // Clamped first: then the conversion is the floor, which by itself is a function call where SSE4 may be missing.
+        [column, row].map(|texel| texel.max(0.0).min(last) as i32 as usize)
     }
 }
 
@@ -122,6 +123,27 @@ pub fn cell(faces: &[Face], point: &Projected, side: usize) -> usize {
 pub fn cell_of(faces: &[Face], position: Vec3, side: usize) -> Option<(usize, f32)> {
     let point = project(faces, position)?;
     Some((cell(faces, &point, side), point.depth))
+}
+
+/// Cells and depths of `positions` as [`cell_of`] gives them, with depth 0 where it gives none. A single face, the usual
+/// light, takes no branch, so that several positions are placed at once.
+pub fn cells_of(faces: &[Face], positions: &[[f32; 3]], side: usize, cells: &mut [u32], depths: &mut [f32]) {
+    let rows = positions.iter().zip(cells).zip(depths);
+    let [face] = faces else {
+        for ((position, cell), depth) in rows {
+            let placed = cell_of(faces, Vec3::from(*position), side).unwrap_or((0, 0.0));
+            (*cell, *depth) = (placed.0 as u32, placed.1);
+        }
+        return;
+    };
+    for ((position, cell), depth) in rows {
+        let position = Vec3::from(*position);
+        let offset = position - face.origin;
+        let along = face.axis_z.dot(offset);
+        let [column, row] = face.texel(face.axis_x.dot(offset) / along, face.axis_y.dot(offset) / along, side);
+        *cell = (row * side + column) as u32;
+        *depth = if along > 0.0 && position.is_finite() { along } else { 0.0 };
+    }
 }
 
 /// How far rounding may have moved a projected point in u and in v, on either backend.

@@ -113,3 +113,26 @@ fn the_pad_covers_the_error_against_double_precision() {
     assert!(largest < 1.0, "{largest}");
     assert!(largest > 0.05, "the pad is needlessly wide: {largest}");
 }
+
+#[test]
+fn placing_many_is_placing_each() {
+    let mut seed = 9u32;
+    let mut noise = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 / (1 << 22) as f32 - 2.0
+    };
+    let mut positions: Vec<[f32; 3]> = (0..1001).map(|_| [noise(), noise(), noise() - 1.0]).collect();
+    positions.extend([[0.0, 0.0, -2.0], [f32::NAN; 3], [0.0, 0.0, f32::INFINITY], [3e38, -3e38, 3e38], [0.0; 3]]);
+    for faces in [vec![face()], cube()] {
+        for side in [1, 3, 512, 4096] {
+            let (mut cells, mut depths) = (vec![7; positions.len()], vec![7.0; positions.len()]);
+            cells_of(&faces, &positions, side, &mut cells, &mut depths);
+            for ((position, cell), depth) in positions.iter().zip(&cells).zip(&depths) {
+                match cell_of(&faces, Vec3::from(*position), side) {
+                    Some(placed) => assert_eq!((*cell as usize, *depth), placed, "{position:?}"),
+                    None => assert_eq!(*depth, 0.0, "{position:?}"),
+                }
+            }
+        }
+    }
+}
