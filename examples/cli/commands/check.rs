@@ -3,7 +3,8 @@
 use crate::args::CheckArgs;
 use crate::graph_choice::{inputs, load_graph};
 use shadowgraph_core::pass::Catalogue;
-use shadowgraph_core::problem::{Problem, Problems};
+use shadowgraph_core::plan::Backend;
+use shadowgraph_core::problem::{Kind, Problem, Problems};
 use shadowgraph_graph::Overrides;
 
 /// What to print, and whether all graphs are right.
@@ -32,8 +33,21 @@ pub fn text(catalogue: &Catalogue, args: &CheckArgs) -> (String, bool) {
     (text, is_right)
 }
 
+/// Right means right on some backend: a graph of passes that only one backend has is no mistake.
 fn problems_of(catalogue: &Catalogue, name: &str) -> Result<String, Problems> {
     let graph = load_graph(name)?;
-    let plan = shadowgraph_graph::plan(&graph, catalogue, &inputs(true), None, &Overrides::default())?;
-    Ok(format!("{name}: right; {} nodes run, {} left out without a scene\n", plan.nodes.len(), plan.left_out.len()))
+    let on = |default_backend: Backend| {
+        let overrides = Overrides { default_backend, ..Overrides::default() };
+        shadowgraph_graph::plan(&graph, catalogue, &inputs(true), None, &overrides)
+    };
+    let backend_only = |problems: &Problems| problems.0.iter().all(|problem| problem.kind == Kind::Unsupported);
+    let (plan, where_text) = match on(Backend::Cpu) {
+        Err(problems) if backend_only(&problems) => (on(Backend::Wgpu).map_err(|_| problems)?, ", on wgpu only"),
+        other => (other?, ""),
+    };
+    Ok(format!(
+        "{name}: right{where_text}; {} nodes run, {} left out without a scene\n",
+        plan.nodes.len(),
+        plan.left_out.len()
+    ))
 }
