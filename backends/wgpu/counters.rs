@@ -8,7 +8,8 @@ use shadowgraph_core::problem::{Kind, Problem};
 /// What the counts of a run mean for it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdict {
-    /// Slots that were too small, with the rows they needed: prepare again with these and the run will fit.
+    /// Empty, or every slot that was ever too small with the rows to give it: prepare again with these and the run will fit,
+    /// or show what comes after.
     pub grown: Grown,
     /// The first thing that is wrong with the run's outputs: an overflow, else a count that had to be zero.
     pub problem: Option<Problem>,
@@ -55,7 +56,8 @@ impl Prepared {
                         };
                         let capacity = self.shapes.0[*slot].first().copied().unwrap_or(1) as u64;
                         if count > capacity {
-                            grown.push((format!("{}.{port}", node.id), count as usize));
+                            // A little more: atomics may count a little more next time, or what comes before may.
+                            grown.push((format!("{}.{port}", node.id), (count + count / 16) as usize));
                             let problem = Problem::new(Kind::Overflow, counter.doc)
                                 .node(&node.id)
                                 .port(port)
@@ -76,6 +78,10 @@ impl Prepared {
                     CounterKind::MustBeZero(_) | CounterKind::Info => {}
                 }
             }
+        }
+        if !grown.is_empty() {
+            let still = self.grown.iter().filter(|(name, _)| !grown.iter().any(|(new, _)| new == name)).cloned();
+            grown = still.chain(grown.iter().cloned()).collect();
         }
         // What follows an overflow worked on a cut list, so its counts say nothing.
         Verdict { grown, problem: overflow.or(wrong) }

@@ -46,6 +46,8 @@ pub struct Prepared {
     pub(crate) device: wgpu::Device,
     pub(crate) plan: Plan,
     pub(crate) shapes: Shapes,
+    /// What the request said.
+    pub(crate) grown: Grown,
     pub(crate) layout: Layout,
     pub(crate) memories: Vec<Memory>,
     /// Whether nodes and commands are labelled in the encoder: Mesa's llvmpipe crashes on the second label of an encoder.
@@ -83,6 +85,7 @@ impl Prepared {
                 device: device.clone(),
                 plan: plan.clone(),
                 shapes,
+                grown: request.grown.clone(),
                 layout,
                 memories,
                 labels: device.adapter_info().driver != "llvmpipe",

@@ -1,5 +1,6 @@
 //! Frames of a session: upload, submit, wait, time, judge, read back.
 
+use crate::counters::Verdict;
 use crate::errors::scoped;
 use crate::externals::Bound;
 use crate::features::check_features;
@@ -37,32 +38,27 @@ impl Session {
             let prepared = Prepared::prepare_with(&self.pipelines, &self.device, &self.queue, &request)?;
             let done = scoped(&self.device, || self.frames(&prepared, inputs, options));
             self.check()?;
-            let (mut outcome, status) = done?;
-            let verdict = prepared.judge(&status);
-            if verdict.grown.is_empty() || attempt >= options.regrow {
-                if verdict.problem.is_none() || verdict.grown.is_empty() {
-                    outcome.arrays = scoped(&self.device, || self.kept(&prepared))?;
-                    outcome.grown = grown;
-                    return Ok((outcome, verdict.problem));
-                }
-                return Err(verdict.problem.unwrap_or_else(|| unreachable!("an overflow has a problem")));
+            let (mut outcome, verdict) = done?;
+            if verdict.grown.is_empty() {
+                outcome.arrays = scoped(&self.device, || self.kept(&prepared))?;
+                outcome.grown = grown;
+                return Ok((outcome, verdict.problem));
             }
-            for (slot, rows) in verdict.grown {
-                // A little more than was counted: what comes after may find a little more on the longer list.
-                grown.retain(|(name, _)| *name != slot);
-                grown.push((slot, rows + rows / 16));
+            if let (Some(problem), true) = (verdict.problem, attempt >= options.regrow) {
+                return Err(problem);
             }
+            grown = verdict.grown;
         }
         unreachable!("the loop returns")
     }
 
-    /// Uploads, runs all frames, and reads the counters.
+    /// Uploads, runs all frames (the first alone when it overflows), and judges the counters.
     fn frames(
         &self,
         prepared: &Prepared,
         inputs: &[(SlotId, &Array)],
         options: &Options,
-    ) -> Result<(Outcome, Vec<u32>), Problem> {
+    ) -> Result<(Outcome, Verdict), Problem> {
         for (slot, array) in inputs {
             prepared.upload_any(&self.queue, *slot, array)?;
         }
@@ -75,13 +71,18 @@ impl Session {
             false => Clock::Off,
         };
         let mut frames = Vec::new();
+        let mut status = Vec::new();
         for frame in 0..options.warm_up + options.frames.max(1) {
             let times = self.frame(prepared, clock)?;
             if frame >= options.warm_up {
                 frames.push(times);
             }
+            status = self.status(prepared)?;
+            if !prepared.judge(&status).grown.is_empty() {
+                break;
+            }
         }
-        let status = self.status(prepared)?;
+        let verdict = prepared.judge(&status);
         let counts = prepared.counts(&status);
         let words = |slot: SlotId| prepared.layout.slot(slot).map_or(0, |part| part.bytes());
         let node_run = |(index, counts): (usize, Vec<u64>)| NodeRun {
@@ -105,7 +106,7 @@ impl Session {
             memory_bytes: prepared.bytes(),
             grown: Grown::new(),
         };
-        Ok((outcome, status))
+        Ok((outcome, verdict))
     }
 
     /// Runs one frame and waits for it.
