@@ -67,7 +67,14 @@ const TONEMAP_WGSL: &str = "
     return vec4(pow(light / (1.0 + 0.3 * light), vec3(1.0 / 2.2)), 1.0);
 }";
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() {
+    if let Err(error) = frame() {
+        eprintln!("{error}");
+        std::process::exit(1);
+    }
+}
+
+fn frame() -> Result<(), Box<dyn Error>> {
     // A scene, a camera and a light, as plain arrays with the names of the graph's inputs.
     let scene = shadowgraph_scenes::load("builtin:columns")?;
     let view = shadowgraph_scenes::choose_view(&scene, "builtin:columns", None, None)?;
