@@ -10,7 +10,8 @@ pub fn trials() -> Vec<Trial> {
             fresh("docs/PASSES.md", &shadowgraph::commands::passes::markdown(&shadowgraph_passes::catalogue()))
         }),
         Trial::test("docs/architecture_is_short", || {
-            let text = std::fs::read_to_string(root().join("docs/ARCHITECTURE.md")).map_err(|error| error.to_string())?;
+            let text =
+                std::fs::read_to_string(root().join("docs/ARCHITECTURE.md")).map_err(|error| error.to_string())?;
             if text.lines().count() < 150 { Ok(()) } else { Err("150 lines or more".into()) }
         }),
         Trial::test("docs/the_paper_map_names_folders_that_exist", paper_map),

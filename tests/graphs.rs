@@ -16,9 +16,13 @@ pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     for graph in builtin_names() {
         for scene in SCENES {
-            trials.push(Trial::test(format!("graphs/{graph}/{scene}/cpu"), move || runs(graph, scene, BackendChoice::Cpu)));
+            trials.push(Trial::test(format!("graphs/{graph}/{scene}/cpu"), move || {
+                runs(graph, scene, BackendChoice::Cpu)
+            }));
             if !["rays", "truth_hard"].contains(&graph) {
-                trials.push(gpu::trial(format!("graphs/{graph}/{scene}/wgpu"), move |_| runs(graph, scene, BackendChoice::Wgpu)));
+                trials.push(gpu::trial(format!("graphs/{graph}/{scene}/wgpu"), move |_| {
+                    runs(graph, scene, BackendChoice::Wgpu)
+                }));
             }
         }
     }
@@ -56,14 +60,18 @@ fn a_swap_takes_effect() -> Result<(), Failed> {
     assert!(tables.iter().any(|node| node == "conservative_raster:binning"), "{tables:?}");
     let fused = nodes(&["hard", "--swap", "visibility=fused"])?;
     assert!(fused.iter().any(|node| node == "visibility:fused"), "{fused:?}");
-    assert!(!fused.iter().any(|node| node.starts_with("conservative_raster") || node.starts_with("caster_scan")), "{fused:?}");
+    assert!(
+        !fused.iter().any(|node| node.starts_with("conservative_raster") || node.starts_with("caster_scan")),
+        "{fused:?}"
+    );
     Ok(())
 }
 
 fn refused() -> Result<(), Failed> {
     let choice = render_args(&["hard", "--swap", "visibility=fused_draw"]).graph;
     let catalogue = shadowgraph_passes::catalogue();
-    let problems = graph_choice::plan(&choice, &catalogue, None, Backend::Cpu, Keep::OutputsOnly).err().ok_or("it was planned")?;
+    let problems =
+        graph_choice::plan(&choice, &catalogue, None, Backend::Cpu, Keep::OutputsOnly).err().ok_or("it was planned")?;
     let text = problems.to_string();
     if text.contains("visibility") && text.contains("fused_draw") { Ok(()) } else { Err(text.into()) }
 }

@@ -89,7 +89,8 @@ fn import() -> Result<(), Failed> {
     succeeded(&program(&["render", "hard", "--backend", "cpu", "--size", "40x30", "--dump", &first])?)?;
     let words = ["render", "rays", "--backend", "cpu", "--size", "40x30", "--view-samples", &first, "--dump", &second];
     succeeded(&program(&words)?)?;
-    let read = |folder: &str, file: &str| std::fs::read(PathBuf::from(folder).join(file)).map_err(|error| error.to_string());
+    let read =
+        |folder: &str, file: &str| std::fs::read(PathBuf::from(folder).join(file)).map_err(|error| error.to_string());
     let same = read(&first, "view_samples.position.npy")? == read(&second, "view_samples.position.npy")?;
     if same { Ok(()) } else { Err("imported positions are not those that were dumped".into()) }
 }
@@ -97,7 +98,8 @@ fn import() -> Result<(), Failed> {
 fn check() -> Result<(), Failed> {
     let (_keep, folder) = folder()?;
     let path = PathBuf::from(&folder).join("wrong.ron");
-    let text = r#"(version: 1, base: "hard", replace: [(id: "visibilty", pass: "planes"), (id: "combine", pass: "popcnt")])"#;
+    let text =
+        r#"(version: 1, base: "hard", replace: [(id: "visibilty", pass: "planes"), (id: "combine", pass: "popcnt")])"#;
     std::fs::write(&path, text).map_err(|error| error.to_string())?;
     let output = program(&["check", &path.display().to_string()])?;
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));

@@ -65,7 +65,8 @@ pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     let catalogue = shadowgraph_passes::catalogue();
     for path in case_files(&root().join("tests/suite")) {
-        let name = path.strip_prefix(root().join("tests/suite")).unwrap_or(&path).with_extension("").display().to_string();
+        let name =
+            path.strip_prefix(root().join("tests/suite")).unwrap_or(&path).with_extension("").display().to_string();
         let text = std::fs::read_to_string(&path).unwrap_or_default();
         let case: Case = match ron::from_str(&text) {
             Ok(case) => case,
@@ -89,7 +90,11 @@ fn pass_trials(name: &str, case: &Case, pass: &'static Pass) -> Vec<Trial> {
     let mut trials = Vec::new();
     if pass.cpu.is_some() {
         let case = case.clone();
-        let run = move || judge(&case, pass, |params, image, inputs| shadowgraph_cpu::run_node(pass, params, image, inputs).map(|out| out.0));
+        let run = move || {
+            judge(&case, pass, |params, image, inputs| {
+                shadowgraph_cpu::run_node(pass, params, image, inputs).map(|out| out.0)
+            })
+        };
         trials.push(Trial::test(format!("suite/{name}/{}/cpu", pass.name), run));
     }
     if pass.gpu.is_some() {
@@ -102,7 +107,8 @@ fn pass_trials(name: &str, case: &Case, pass: &'static Pass) -> Vec<Trial> {
 }
 
 type Outputs = Vec<(&'static str, Array)>;
-type Run<'a> = &'a dyn Fn(&Params, [usize; 2], &[(&'static str, Array)]) -> Result<Outputs, shadowgraph_core::problem::Problem>;
+type Run<'a> =
+    &'a dyn Fn(&Params, [usize; 2], &[(&'static str, Array)]) -> Result<Outputs, shadowgraph_core::problem::Problem>;
 
 fn judge(
     case: &Case,
@@ -139,7 +145,8 @@ fn params(case: &Case, pass: &'static Pass) -> Result<Params, Failed> {
             Number::Bool(v) => Value::Bool(v),
             Number::Word(v) => Value::Word(v),
         };
-        let spec = pass.params.iter().find(|spec| spec.name == name).ok_or(format!("{pass:?} has no parameter {name}"))?;
+        let spec =
+            pass.params.iter().find(|spec| spec.name == name).ok_or(format!("{pass:?} has no parameter {name}"))?;
         let value = spec.range.check(&value).map_err(|problem| problem.to_string())?;
         if let Some(entry) = params.0.iter_mut().find(|(key, _)| key == name) {
             entry.1 = value;
@@ -177,7 +184,8 @@ fn compare(port: &str, expected: &Expected, found: &Array) -> Result<(), Failed>
 
 fn case_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
-    let mut entries: Vec<_> = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    let mut entries: Vec<_> =
+        std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
     entries.sort();
     for path in entries {
         if path.is_dir() {

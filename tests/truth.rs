@@ -8,9 +8,31 @@ use shadowgraph::engine::Machine;
 
 /// Scenes with parameters that keep the suite quick.
 const SCENES: &[&str] = &[
-    "aligned", "camera-inside", "columns", "contact", "coplanar-P", "degenerate", "depth-noise?blades=3000", "far-light",
-    "grass-ring?blades=2000", "grazing", "hairball?strands=300", "hidden", "light-inside", "list-overload", "long-view",
-    "nonmanifold", "omni", "open", "random-triangles?count=5000", "self", "thin", "torus-knot", "transparent", "two-depths", "zoom",
+    "aligned",
+    "camera-inside",
+    "columns",
+    "contact",
+    "coplanar-P",
+    "degenerate",
+    "depth-noise?blades=3000",
+    "far-light",
+    "grass-ring?blades=2000",
+    "grazing",
+    "hairball?strands=300",
+    "hidden",
+    "light-inside",
+    "list-overload",
+    "long-view",
+    "nonmanifold",
+    "omni",
+    "open",
+    "random-triangles?count=5000",
+    "self",
+    "thin",
+    "torus-knot",
+    "transparent",
+    "two-depths",
+    "zoom",
 ];
 
 /// Graphs that promise exact answers, and how many wrong bits a GPU may have.
@@ -28,11 +50,26 @@ pub fn trials() -> Vec<Trial> {
             trials.push(gpu::trial(format!("truth/{graph}/{scene}/wgpu"), run));
         }
     }
-    trials.push(gpu::trial("truth/hard_draw/columns/wgpu".into(), |_| check("hard_draw", "columns", "96x72", "wgpu", GPU_SHARE)));
+    trials.push(gpu::trial("truth/hard_draw/columns/wgpu".into(), |_| {
+        check("hard_draw", "columns", "96x72", "wgpu", GPU_SHARE)
+    }));
     trials.push(Trial::test("truth/control/a_coarse_shadow_map_is_wrong", || {
-        let args = verify_args(&["shadow_map", "--set", "light_depth.size=64", "--backend", "cpu", "--size", "96x72", "--quiet"]);
+        let args = verify_args(&[
+            "shadow_map",
+            "--set",
+            "light_depth.size=64",
+            "--backend",
+            "cpu",
+            "--size",
+            "96x72",
+            "--quiet",
+        ]);
         let row = row(&args, "builtin:columns", "96x72")?;
-        if row.verdict.wrong_outside_count > 0 { Ok(()) } else { Err("no wrong bit found in a 64x64 shadow map".into()) }
+        if row.verdict.wrong_outside_count > 0 {
+            Ok(())
+        } else {
+            Err("no wrong bit found in a 64x64 shadow map".into())
+        }
     }));
     trials
 }
@@ -46,10 +83,20 @@ fn check(graph: &str, scene: &str, size: &str, backend: &str, share: f64) -> Res
     if verdict.wrong_outside_count <= allowed {
         return Ok(());
     }
-    Err(format!("{} wrong bits of {}: {:?}", verdict.wrong_outside_count, verdict.all.bits_count, verdict.wrong.first()).into())
+    Err(format!(
+        "{} wrong bits of {}: {:?}",
+        verdict.wrong_outside_count,
+        verdict.all.bits_count,
+        verdict.wrong.first()
+    )
+    .into())
 }
 
-fn row(args: &shadowgraph::args::VerifyArgs, scene: &str, size: &str) -> Result<shadowgraph::commands::verify::Row, Failed> {
+fn row(
+    args: &shadowgraph::args::VerifyArgs,
+    scene: &str,
+    size: &str,
+) -> Result<shadowgraph::commands::verify::Row, Failed> {
     let job = job(scene, size);
     let mut machine = Machine::new(args.run.backend).map_err(|problem| problem.to_string())?;
     let catalogue = shadowgraph_passes::catalogue();

@@ -17,7 +17,10 @@ use shadowgraph_wgpu::Session;
 /// Graphs that together mention every pass with both a CPU function and a recipe.
 const GRAPHS: &[(&str, &[&str])] = &[
     ("hard", &[]),
-    ("hard", &["list_build=sort", "list_scan=serial", "casters=light_back_facing", "light_frame=whole", "sample_filter=all"]),
+    (
+        "hard",
+        &["list_build=sort", "list_scan=serial", "casters=light_back_facing", "light_frame=whole", "sample_filter=all"],
+    ),
     ("hard", &["visibility=fused", "light_frame=six_faces", "combine=threshold", "bent_light=own_face", "shade=phong"]),
     ("shadow_map", &["light_depth=second_surface"]),
     ("pcf", &[]),
@@ -35,7 +38,10 @@ pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     for (graph, swaps) in GRAPHS {
         for (scene, size) in SCENES {
-            let name = format!("twins/{graph}{}/{scene}@{size}", swaps.iter().map(|swap| format!("+{swap}")).collect::<String>());
+            let name = format!(
+                "twins/{graph}{}/{scene}@{size}",
+                swaps.iter().map(|swap| format!("+{swap}")).collect::<String>()
+            );
             trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, scene, size)));
         }
     }
@@ -44,8 +50,9 @@ pub fn trials() -> Vec<Trial> {
 
 fn twins(session: &Session, graph: &str, swaps: &[&str], scene: &str, size: &str) -> Result<(), Failed> {
     let job = job(scene, size);
-    let words: Vec<String> =
-        std::iter::once(graph.to_string()).chain(swaps.iter().flat_map(|swap| ["--swap".to_string(), swap.to_string()])).collect();
+    let words: Vec<String> = std::iter::once(graph.to_string())
+        .chain(swaps.iter().flat_map(|swap| ["--swap".to_string(), swap.to_string()]))
+        .collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let choice = render_args(&words).graph;
     let catalogue = shadowgraph_passes::catalogue();
@@ -55,7 +62,8 @@ fn twins(session: &Session, graph: &str, swaps: &[&str], scene: &str, size: &str
     let outcome = machine.run(&plan, &job, 1, &|_, _, _| {}).map_err(|problem| problem.to_string())?;
     let mut faults = Vec::new();
     for node in plan.nodes.iter().filter(|node| node.pass.gpu.is_some()) {
-        let inputs: Vec<_> = node.inputs.iter().map(|(port, slot)| (*port, outcome.values.get(*slot).clone())).collect();
+        let inputs: Vec<_> =
+            node.inputs.iter().map(|(port, slot)| (*port, outcome.values.get(*slot).clone())).collect();
         let (outputs, _) = match session.run_node(node.pass, &node.params, job.image, &inputs) {
             Ok(done) => done,
             Err(problem) => {
@@ -117,8 +125,15 @@ fn value_fault(wanted: &Array, found: &Array, contract: Contract) -> Option<Stri
     })
 }
 
-fn list_faults(cell: Option<&Array>, slot: Option<&Array>, length: Option<&Array>, twin: Option<&Array>) -> Vec<String> {
-    let (Some(cell), Some(slot), Some(length), Some(twin)) = (cell, slot, length, twin) else { return vec!["no lists".into()] };
+fn list_faults(
+    cell: Option<&Array>,
+    slot: Option<&Array>,
+    length: Option<&Array>,
+    twin: Option<&Array>,
+) -> Vec<String> {
+    let (Some(cell), Some(slot), Some(length), Some(twin)) = (cell, slot, length, twin) else {
+        return vec!["no lists".into()];
+    };
     let mut seen: Vec<Vec<u32>> = vec![Vec::new(); length.words().len()];
     for (cell, slot) in cell.as_u32().iter().zip(slot.as_u32()).filter(|(cell, _)| **cell != NO_CELL) {
         seen[*cell as usize].push(*slot);
@@ -164,7 +179,8 @@ pub fn controls() -> Vec<Trial> {
         assert!(value_fault(&whole, &Array::u32([2], vec![1, 3]), Contract::Exact).is_some());
         assert!(value_fault(&whole, &Array::u32([1], vec![1]), Contract::Exact).is_some());
         let offsets = [("list_offset", Array::u32([3], vec![0, 2, 3]))];
-        let (one, same, other) = (Array::u32([3], vec![5, 6, 7]), Array::u32([3], vec![6, 5, 7]), Array::u32([3], vec![6, 7, 5]));
+        let (one, same, other) =
+            (Array::u32([3], vec![5, 6, 7]), Array::u32([3], vec![6, 5, 7]), Array::u32([3], vec![6, 7, 5]));
         assert!(sets_faults(&offsets, "list_offset", Some(&one), Some(&same)).is_empty());
         assert_eq!(sets_faults(&offsets, "list_offset", Some(&one), Some(&other)).len(), 1);
         Ok(())

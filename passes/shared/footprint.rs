@@ -11,6 +11,9 @@ use super::pyramid::{Cone, WILD, size};
 /// Directions may be off by this much of their length.
 const SLACK: f64 = 2e-6;
 
+/// A depth may be off by this much of the distance: five f32 roundings, and the axes.
+const DEPTH_ERROR: f64 = 5e-7;
+
 /// The texels of one face.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
@@ -26,8 +29,10 @@ pub struct Grid {
     reach: [[f64; 2]; 2],
     /// Largest depth of a view-sample, with room for rounding, scene units.
     far: f64,
-    /// Factor that covers the rounding of a depth.
+    /// Factor that covers the rounding of a depth inside the window.
     depth_room: f64,
+    /// Factor that covers it in border texels too.
+    border_room: f64,
 }
 
 /// The rows a caster touches, and what spans in them are made from.
@@ -54,15 +59,20 @@ impl Grid {
         let [u, v] = reach.map(|[low, high]| low.abs().max(high.abs()));
         let spread = 1.0 + u * u + v * v;
         let reach = reach.map(|[low, high]| [low - SLACK * spread, high + SLACK * spread]);
-        let depth_room = 1.0 + SLACK * spread.sqrt();
-        let far = f64::from(face.far) * depth_room;
-        Self { side, low, texel, pad: 1e-3 + 3e-7 * count, reach, far, depth_room }
+        let border_room = 1.0 + DEPTH_ERROR * spread.sqrt();
+        let [u, v] = [0, 1].map(|axis| low[axis].abs().max((low[axis] + count * texel[axis]).abs()));
+        let depth_room = 1.0 + 2.0 * DEPTH_ERROR * (1.0 + u * u + v * v).sqrt();
+        let far = f64::from(face.far) * border_room;
+        Self { side, low, texel, pad: 1e-3 + 3e-7 * count, reach, far, depth_room, border_room }
     }
 
-    /// Whether a caster with smallest depth `near` is behind every view-sample of a cell with largest depth `list_far`.
+    /// Whether a caster with smallest depth `near` is behind every view-sample of the cell at `column` and `row`, whose largest
+    /// depth is `list_far`.
     #[inline(always)]
-    pub fn is_behind(&self, near: f64, list_far: f32) -> bool {
-        near > f64::from(list_far) * self.depth_room
+    pub fn is_behind(&self, near: f64, list_far: f32, [column, row]: [usize; 2]) -> bool {
+        let inner = 1..self.side - 1;
+        let room = if inner.contains(&column) && inner.contains(&row) { self.depth_room } else { self.border_room };
+        near > f64::from(list_far) * room
     }
 
     /// First and last texel along `axis` that the padded range meets; none when no view-sample is there.

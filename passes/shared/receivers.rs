@@ -309,10 +309,10 @@ impl Reached {
     #[inline(always)]
     fn add(&mut self, chunk: &Chunk, lost: u16) {
         for (axis, along) in [&chunk.u, &chunk.v].into_iter().enumerate() {
-            for lane in 0..LANES {
+            for (lane, at) in along.iter().enumerate() {
                 let here = lost >> lane & 1 == 0;
-                self.low[axis][lane] = self.low[axis][lane].min(if here { along[lane] } else { f32::MAX });
-                self.high[axis][lane] = self.high[axis][lane].max(if here { along[lane] } else { f32::MIN });
+                self.low[axis][lane] = self.low[axis][lane].min(if here { *at } else { f32::MAX });
+                self.high[axis][lane] = self.high[axis][lane].max(if here { *at } else { f32::MIN });
             }
         }
     }

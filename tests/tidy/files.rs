@@ -73,7 +73,8 @@ pub fn every_pass_folder_is_in_the_catalogue() -> Vec<String> {
     }
     let catalogue = shadowgraph_passes::catalogue();
     let named: Vec<_> = catalogue.passes().map(|pass| format!("{}/{}", pass.stage.name, pass.name)).collect();
-    let orphans = folders.iter().filter(|folder| !named.contains(folder)).map(|f| format!("{f} is not in the catalogue"));
+    let orphans =
+        folders.iter().filter(|folder| !named.contains(folder)).map(|f| format!("{f} is not in the catalogue"));
     let ghosts = named.iter().filter(|name| !folders.contains(name)).map(|n| format!("{n} has no folder of its name"));
     orphans.chain(ghosts).collect()
 }

@@ -38,7 +38,8 @@ pub fn crates_use_only_what_they_may() -> Vec<String> {
 fn manifest_faults(folder: &str, manifest: &str, may: &[&str], never: &[&str]) -> Vec<String> {
     let dependencies = manifest.split("[dependencies]").nth(1).unwrap_or_default();
     let dependencies = dependencies.split("\n[").next().unwrap_or_default();
-    let names = dependencies.lines().filter_map(|line| line.split(['.', ' ', '=']).next()).filter(|name| !name.is_empty());
+    let names =
+        dependencies.lines().filter_map(|line| line.split(['.', ' ', '=']).next()).filter(|name| !name.is_empty());
     names
         .filter(|name| (name.starts_with("shadowgraph") && !may.contains(name)) || never.contains(name))
         .map(|name| format!("{folder} may not use {name}"))
@@ -53,7 +54,11 @@ pub fn no_pass_imports_another() -> Vec<String> {
         let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy().into_owned()).collect();
         let [passes, stage, ..] = parts.as_slice() else { continue };
         if passes == "passes" && (stages.contains(&stage.as_str()) || stage == "shared") {
-            faults.extend(foreign_stages(stage, &text, &stages).into_iter().map(|other| format!("{} uses {other}", path.display())));
+            faults.extend(
+                foreign_stages(stage, &text, &stages)
+                    .into_iter()
+                    .map(|other| format!("{} uses {other}", path.display())),
+            );
         }
     }
     faults

@@ -6,8 +6,7 @@ use shadowgraph_core::pass::Pass;
 use shadowgraph_core::record::{Command, DeviceLimits, GpuCx, Shader};
 use shadowgraph_core::size::SizeCx;
 
-const LIMITS: DeviceLimits =
-    DeviceLimits { storage_binding_bytes: 128 << 20, texture_side: 8192, storage_buffers: 8 };
+const LIMITS: DeviceLimits = DeviceLimits { storage_binding_bytes: 128 << 20, texture_side: 8192, storage_buffers: 8 };
 const IMAGE: [usize; 2] = [8, 8];
 
 pub fn every_recipe_validates() -> Vec<String> {
@@ -33,7 +32,9 @@ fn faults_of(pass: &'static Pass) -> Vec<String> {
     for command in &commands {
         let (label, shader, entries) = match command {
             Command::Dispatch(dispatch) => (dispatch.label, &dispatch.shader, vec![dispatch.entry]),
-            Command::Draw(draw) => (draw.label, &draw.shader, [Some(draw.vertex), draw.fragment].into_iter().flatten().collect()),
+            Command::Draw(draw) => {
+                (draw.label, &draw.shader, [Some(draw.vertex), draw.fragment].into_iter().flatten().collect())
+            }
             Command::Zero(_) | Command::Copy { .. } => continue,
         };
         faults.extend(shader_faults(shader, &entries).into_iter().map(|fault| format!("{pass:?} {label}: {fault}")));

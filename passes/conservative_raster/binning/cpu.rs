@@ -116,11 +116,12 @@ impl Binning<'_> {
                 continue;
             };
             let start = (face * grid.side + row) * grid.side;
-            for cell in start + first..=start + last {
+            for column in first..=last {
+                let cell = start + column;
                 if self.list_length[cell] == 0 {
                     continue;
                 }
-                if grid.is_behind(near, self.list_far[cell]) {
+                if grid.is_behind(near, self.list_far[cell], [column, row]) {
                     *behind += 1;
                 } else {
                     pair(cell);
