@@ -1,7 +1,7 @@
 //! A host that owns everything: its frame is its own G-buffer pass, the graph's hard shadows, and its own tone mapping pass, in one
 //! encoder and one submission.
 //!
-//! `cargo run --example minimal` writes `minimal.png`.
+//! `cargo run --example minimal` writes `out/minimal.png`.
 //!
 //! The library makes no device, polls nothing and submits nothing here. It reads the host's geometry buffer and G-buffer
 //! textures and draws into a texture of the host, all bound by name.
@@ -190,10 +190,11 @@ fn frame() -> Result<(), Box<dyn Error>> {
     }
 
     let words = readback::read_words(&device, &queue, &texels, 0, width * height)?;
-    let mut encoder = png::Encoder::new(File::create("minimal.png")?, width as u32, height as u32);
+    std::fs::create_dir_all("out")?;
+    let mut encoder = png::Encoder::new(File::create("out/minimal.png")?, width as u32, height as u32);
     encoder.set_color(png::ColorType::Rgba);
     encoder.write_header()?.write_image_data(&words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>())?;
-    println!("minimal.png: {}", adapter.get_info().name);
+    println!("out/minimal.png, drawn by {}", adapter.get_info().name);
     Ok(())
 }
 

@@ -110,7 +110,7 @@ impl Session {
     }
 
     /// Runs one frame and waits for it.
-    fn frame(&self, prepared: &Prepared, clock: Clock) -> Result<Times, Problem> {
+    pub(crate) fn frame(&self, prepared: &Prepared, clock: Clock) -> Result<Times, Problem> {
         let bound = Bound::none(prepared);
         let count = prepared.nodes.len();
         let stamps = (clock == Clock::Device).then(|| Stamps::new(&self.device, count));
@@ -172,9 +172,11 @@ impl Session {
 }
 
 /// Times of one frame, milliseconds.
-struct Times {
-    all: f64,
-    nodes: Vec<Option<f64>>,
+pub(crate) struct Times {
+    /// Submit to done, host clock.
+    pub all: f64,
+    /// By node of the plan.
+    pub nodes: Vec<Option<f64>>,
 }
 
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {

@@ -3,7 +3,8 @@
 use crate::adapter::Wanted;
 use crate::features::{check_features, required_features};
 use crate::segment::Segment;
-use crate::{Options, Outcome, Session};
+use crate::timing::Clock;
+use crate::{Options, Outcome, Prepared, Request, Session};
 use shadowgraph_core::array::Array;
 use shadowgraph_core::array::Element::U32;
 use shadowgraph_core::param::Params;
@@ -127,6 +128,24 @@ fn transients_share_memory_and_poison_does_not_show() {
         taken.push(outcome.memory_bytes);
     }
     assert_eq!(taken, [400 * 4, 400 * 4, 400 * 7], "input, two shared, one kept; or seven");
+}
+
+#[test]
+fn device_timestamps_give_each_node_a_time_within_the_frame() {
+    let Some(session) = Session::shared_or_skip("device_timestamps_give_each_node_a_time_within_the_frame") else {
+        return;
+    };
+    if !session.device().features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+        return;
+    }
+    let plan = chain(&ADD_ONE, 4);
+    let shapes = [("value".to_owned(), vec![1_000_000])];
+    let prepared = Prepared::prepare(session.device(), session.queue(), &Request::new(&plan, &shapes, [1, 1])).unwrap();
+    let times = session.frame(&prepared, Clock::Device).unwrap();
+    assert_eq!(times.nodes.len(), 4);
+    let sum: f64 = times.nodes.iter().flatten().sum();
+    assert!(times.nodes.iter().flatten().all(|millis| *millis > 0.0) && sum < times.all, "{:?}", times.nodes);
+    assert!(times.nodes.iter().any(Option::is_some), "no node was stamped");
 }
 
 #[test]
