@@ -51,6 +51,6 @@ fn build(params: &Params) -> Soup {
         turned(&mut soup, 4 * flutes, &heights, point, WARM);
     }
     light_at(&mut soup, vec3(3.2, 5.0, 2.4), 0.25);
-    look_from(&mut soup, vec3(-4.2, 3.0, 5.0), vec3(0.0, 0.9, 0.0));
+    look_from(&mut soup, vec3(-4.4, 3.4, 5.8), vec3(0.0, 0.9, 0.0));
     soup
 }

@@ -76,7 +76,7 @@ fn long_view(_: &Params) -> Soup {
     soup.start_shape();
     quad(
         &mut soup,
-        [vec3(-6.0, 0.0, -100.0), vec3(-6.0, 0.0, 1.0), vec3(6.0, 0.0, 1.0), vec3(6.0, 0.0, -100.0)],
+        [vec3(-6.0, 0.0, -100.0), vec3(-6.0, 0.0, 2.0), vec3(6.0, 0.0, 2.0), vec3(6.0, 0.0, -100.0)],
         GROUND,
     );
     for post in 0..100 {
@@ -86,8 +86,8 @@ fn long_view(_: &Params) -> Soup {
     for height in [0.3, 0.7] {
         cuboid(&mut soup, vec3(0.87, height, -99.5), vec3(0.9, height + 0.08, 0.5), COOL);
     }
-    light_at(&mut soup, vec3(25.0, 30.0, -40.0), 0.5);
-    look_through(&mut soup, vec3(0.0, 0.05, 1.5), vec3(0.0, 0.03, -10.0), 50.0);
+    light_at(&mut soup, vec3(-25.0, 30.0, -10.0), 0.5);
+    look_through(&mut soup, vec3(0.0, 0.05, 1.5), vec3(0.6, 0.05, -10.0), 40.0);
     soup
 }
 
