@@ -49,7 +49,7 @@ impl Job {
     ///
     /// # Errors
     /// As [`Job::load`].
-    pub fn with_view(scene: Scene, view: View, choice: &SceneChoice) -> Result<Self, Problem> {
+    pub fn with_view(mut scene: Scene, view: View, choice: &SceneChoice) -> Result<Self, Problem> {
         let View { mut camera, mut light, note } = view;
         if let Some(text) = &choice.eye {
             camera.eye = point("--eye", text)?;
@@ -74,6 +74,12 @@ impl Job {
         if let Some(folder) = &choice.view_samples {
             imports = read_view_samples(folder)?;
             image = fitting_image(image, &imports);
+        }
+        // Light-back-facing triangles of a closed part decide only what lies outside of it.
+        if imports.is_empty() {
+            shadowgraph_scenes::open_parts_around(&mut scene, camera.eye);
+        } else {
+            shadowgraph_scenes::open_all_parts(&mut scene);
         }
         let samples = vec![light.position];
         let facts = input::facts(&scene, &samples, !imports.is_empty());

@@ -16,7 +16,7 @@ pub mod topology;
 pub mod views;
 
 pub use place::{View, choose_from, choose_view, load, view_names};
-pub use topology::open_parts_around;
+pub use topology::{open_all_parts, open_parts_around};
 pub use views::Views;
 
 #[cfg(test)]

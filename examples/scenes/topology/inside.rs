@@ -32,6 +32,15 @@ pub fn open_parts_around(scene: &mut Scene, eye: [f32; 3]) -> usize {
     opened
 }
 
+/// Takes [`flag::CLOSED`] off every part: for view-samples that come from elsewhere and may lie inside of anything.
+pub fn open_all_parts(scene: &mut Scene) {
+    let closed = scene.flags.iter().filter(|flags| **flags & flag::CLOSED != 0).count();
+    if closed > 0 {
+        scene.flags.iter_mut().for_each(|flags| *flags &= !flag::CLOSED);
+        scene.notes.push(format!("view-samples are imported: all {closed} triangles of closed parts cast"));
+    }
+}
+
 /// Signed solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983, equation 8); infinite from a
 /// point of the triangle itself, which so counts as inside.
 fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {

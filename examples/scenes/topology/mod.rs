@@ -5,7 +5,7 @@ mod intern;
 mod parts;
 mod smooth;
 
-pub use inside::open_parts_around;
+pub use inside::{open_all_parts, open_parts_around};
 pub use parts::{Parts, find_parts};
 pub use smooth::{Smooth, smooth_vertices};
 

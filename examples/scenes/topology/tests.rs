@@ -114,4 +114,8 @@ fn a_part_around_the_eye_is_opened_and_no_other() {
     assert_eq!(scene([0.2, 0.2, 0.0]).0, 1);
     assert_eq!(scene([0.5, 0.5, 0.5]), (0, [closed, closed].concat()));
     assert_eq!(scene([0.2, 0.2, -0.001]).0, 0);
+
+    let mut all = shadowgraph_core::scene::Scene { flags: vec![flag::CLOSED, flag::TWO_SIDED], ..Default::default() };
+    open_all_parts(&mut all);
+    assert_eq!((all.flags, all.notes.len()), (vec![0, flag::TWO_SIDED], 1));
 }
