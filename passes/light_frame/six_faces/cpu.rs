@@ -24,13 +24,14 @@ fn axes(face: usize) -> [usize; 3] {
 pub fn cube(origin: Vec3) -> [Face; FACES] {
     std::array::from_fn(|face| {
         let [axis, axis_x, axis_y] = axes(face);
-        let along = if face.is_multiple_of(2) { Vec3::AXES[axis] } else { -Vec3::AXES[axis] };
+        let mut axis_z = Vec3::ZERO;
+        axis_z[axis] = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
         Face {
             origin,
             valid: false,
             axis_x: Vec3::AXES[axis_x],
             axis_y: Vec3::AXES[axis_y],
-            axis_z: along,
+            axis_z,
             window_low: [-1.0; 2],
             window_size: [2.0; 2],
             near: 1.0,

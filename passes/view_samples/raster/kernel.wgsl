@@ -49,9 +49,11 @@ fn raster_resolve(@builtin(global_invocation_id) id: vec3<u32>) {
     let to_eye = camera_eye() - a;
     let across = cross(ray, ac);
     let volume = dot(ab, across);
-    let weight_b = dot(to_eye, across) / volume;
-    let weight_c = dot(ray, cross(to_eye, ab)) / volume;
-    let p = a + weight_b * ab + weight_c * ac;
+    var weights = vec2<f32>(dot(to_eye, across), dot(ray, cross(to_eye, ab))) / volume;
+    // A triangle seen almost from its edge makes that error large: the point stays within the triangle all the same.
+    weights = max(weights, vec2<f32>(0.0));
+    weights /= max(weights.x + weights.y, 1.0);
+    let p = a + weights.x * ab + weights.y * ac;
     // Scaled, so that the squares of small edges do not vanish.
     let scale = max(largest_component(ab), largest_component(ac));
     let n = cross(ab / scale, ac / scale);

@@ -10,7 +10,7 @@
 //! takes the lowest; the GPU leaves it to the order of its fragments.
 //!
 //! CPU: f64 throughout, rounded once. GPU: the device's rasteriser with a linear depth of 24 bits of mantissa, positions in f32
-//! relative to a corner of the triangle; what is nearer than a millionth of the farthest corner's depth is cut away.
+//! within the triangle, relative to one of its corners; what is nearer than a millionth of the farthest corner's depth is cut away.
 //! Background rows hold zeros and the triangle with all bits set.
 
 mod bins;
