@@ -1,7 +1,7 @@
 // Writes the number of the nearest triangle to each pixel.
 //
-// The depth buffer holds depth / farthest depth: linear, and as a float equally precise at every distance, which the usual
-// hyperbolic depth with a near plane this close would not be.
+// The depth buffer holds half of depth / farthest depth: linear, and as a float equally precise at every distance, which the
+// usual hyperbolic depth with a near plane this close would not be. Half, as the farthest must still be less than the clear 1.
 
 @group(0) @binding(0) var<storage, read> triangles: array<f32>;
 @group(0) @binding(1) var<storage, read> camera: array<f32>;
@@ -34,5 +34,5 @@ fn raster_vertex(@builtin(vertex_index) vertex: u32) -> Corner {
 
 @fragment
 fn raster_fragment(corner: Corner) -> Seen {
-    return Seen(corner.triangle, clamp(corner.depth / bitcast<f32>(farthest[0]), 0.0, 1.0));
+    return Seen(corner.triangle, clamp(0.5 * corner.depth / bitcast<f32>(farthest[0]), 0.0, 0.75));
 }
