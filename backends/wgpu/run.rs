@@ -15,6 +15,9 @@ use std::ops::Range;
 use std::sync::PoisonError;
 use std::time::Instant;
 
+/// Uploads above this size are handed to the device at once.
+const FLUSH_BYTES: usize = 32 << 20;
+
 impl Session {
     /// Runs, and again while counters tell of an overflow and growing is allowed. Also returns what is wrong with the outcome.
     pub(crate) fn run_grown(
@@ -61,6 +64,10 @@ impl Session {
     ) -> Result<(Outcome, Verdict), Problem> {
         for (slot, array) in inputs {
             prepared.upload_any(&self.queue, *slot, array)?;
+            // Written values are staged until a submission is done: large ones must not pile up.
+            if array.bytes() > FLUSH_BYTES {
+                wait(&self.device, Some(self.queue.submit([])))?;
+            }
         }
         if options.poison {
             prepared.poison(&self.queue);
@@ -115,13 +122,14 @@ impl Session {
         let count = prepared.nodes.len();
         let stamps = (clock == Clock::Device).then(|| Stamps::new(&self.device, count));
         let one = |nodes: Range<usize>| {
-            let start = Instant::now();
             let mut encoder = self.device.create_command_encoder(&Default::default());
             prepared.record_nodes(&mut encoder, &bound, nodes, stamps.as_ref());
             if let Some(stamps) = &stamps {
                 stamps.resolve(&mut encoder);
             }
-            wait(&self.device, Some(self.queue.submit([encoder.finish()])))?;
+            let commands = encoder.finish();
+            let start = Instant::now();
+            wait(&self.device, Some(self.queue.submit([commands])))?;
             Ok(start.elapsed().as_secs_f64() * 1e3)
         };
         if clock == Clock::HostPerNode {
