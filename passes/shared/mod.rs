@@ -16,6 +16,7 @@ pub mod receiver_tree;
 pub mod receivers;
 pub mod scan;
 pub mod segments;
+pub mod shading;
 pub mod shadow_lookup;
 pub mod shadow_map;
 pub mod shadow_raster;
