@@ -1,8 +1,15 @@
 //! Stage `shade`: Visible fraction and light term to a picture (Sintorn 2008, section 4.3, Shading).
 
+pub mod bent_lambert;
+mod gpu;
+mod params;
+pub mod phong;
+mod surface;
+
 use crate::ports;
 use shadowgraph_core::input;
-use shadowgraph_core::pass::Pass;
+use shadowgraph_core::pass::{Counter, CounterKind, Pass};
+use shadowgraph_core::size::SizeCx;
 use shadowgraph_core::stage::Stage;
 
 /// The signature.
@@ -27,4 +34,16 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[];
+pub const PASSES: &[&Pass] = &[&bent_lambert::PASS, &phong::PASS];
+
+/// Kept by every pass here.
+const OUTSIDE: Counter = Counter {
+    name: "outside",
+    doc: "view-samples left out because their pixel is not in the picture",
+    kind: CounterKind::Info,
+};
+
+fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
+    let [width, height] = cx.image;
+    vec![(ports::IMAGE.name, vec![height, width, 4])]
+}

@@ -8,11 +8,8 @@ use shadowgraph_core::record::Bind::{Read, ReadWrite, Uniform};
 use shadowgraph_core::record::{GpuCx, Target::Port};
 use shadowgraph_core::shared::{GROUP, PRELUDE};
 
-/// The dispatch over entries.
-pub const GATHER: &[&str] = &[PRELUDE, shading::WGSL, include_str!("kernel.wgsl"), include_str!("gather.wgsl")];
-
-/// The dispatch over corners.
-pub const CORNER: &[&str] = &[PRELUDE, shading::WGSL, include_str!("kernel.wgsl"), include_str!("corner.wgsl")];
+/// Everything both kernels are made of.
+pub const PIECES: &[&str] = &[PRELUDE, shading::WGSL, include_str!("kernel.wgsl")];
 
 /// The recipe.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
@@ -21,19 +18,17 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     let entries = cx.words(input::FACES.name);
     let smallest = cx.scratch("smallest cosine of each vertex", vertices);
     cx.zero(smallest);
-    let bind = |last: Vec<_>| {
-        let first = vec![
-            Uniform(vec![corners as u32, vertices as u32, entries as u32]),
-            Read(Port(input::TRIANGLES.name)),
-            Read(Port(input::CORNER_VERTEX.name)),
-            Read(Port(input::LIGHT.name)),
-            ReadWrite(smallest),
-        ];
-        [first, last].concat()
-    };
-    let lists = bind(vec![Read(Port(input::FACE_OFFSET.name)), Read(Port(input::FACES.name))]);
-    cx.dispatch("bent_light/adjacent_faces: entries", GATHER, "adjacent_faces_step", lists, entries, GROUP);
-    let output = bind(vec![ReadWrite(Port(ports::CORNER_LIGHT.name))]);
-    cx.dispatch("bent_light/adjacent_faces: corners", CORNER, "adjacent_faces", output, corners, GROUP);
+    let bind = vec![
+        Uniform(vec![corners as u32, vertices as u32, entries as u32]),
+        Read(Port(input::TRIANGLES.name)),
+        Read(Port(input::CORNER_VERTEX.name)),
+        Read(Port(input::LIGHT.name)),
+        ReadWrite(smallest),
+        Read(Port(input::FACE_OFFSET.name)),
+        Read(Port(input::FACES.name)),
+        ReadWrite(Port(ports::CORNER_LIGHT.name)),
+    ];
+    cx.dispatch("bent_light/adjacent_faces: entries", PIECES, "adjacent_faces_step", bind.clone(), entries, GROUP);
+    cx.dispatch("bent_light/adjacent_faces: corners", PIECES, "adjacent_faces", bind, corners, GROUP);
     Ok(())
 }
