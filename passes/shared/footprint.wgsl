@@ -50,18 +50,28 @@ fn footprint_of(
     print.touched = print.near <= far;
     print.pad = light_uv_pad(reach.x, reach.y) / texel + 2e-3;
 
-    // Columns and rows between the corners where all of them are well in front of the light, else all.
-    var low = vec2<f32>(0.0);
-    var high = vec2<f32>(f32(side));
-    if all(depth > 1e-3 * size) {
-        let u = vec3<f32>(dot(axis_x, a), dot(axis_x, b), dot(axis_x, c)) / depth;
-        let v = vec3<f32>(dot(axis_y, a), dot(axis_y, b), dot(axis_y, c)) / depth;
-        let stray = 1e-6 * (1.0 + u * u + v * v);
-        low = vec2<f32>(least(u - stray), least(v - stray));
-        high = vec2<f32>(most(u + stray), most(v + stray));
-        low = (low - window.xy) / texel - print.pad;
-        high = (high - window.xy) / texel + print.pad;
-    }
+    // Columns and rows between the corners in front of the light; where an edge passes the plane beside the light, to infinity on
+    // the side it passes on; all of them where a corner is close to that plane.
+    let x = vec3<f32>(dot(axis_x, a), dot(axis_x, b), dot(axis_x, c));
+    let y = vec3<f32>(dot(axis_y, a), dot(axis_y, b), dot(axis_y, c));
+    let front = depth > 1e-3 * size;
+    let beside = any(abs(depth) <= 1e-3 * size);
+    let u = x / depth;
+    let v = y / depth;
+    let stray = light_uv_pad3(u, v);
+    let passes = front != front.yzx;
+    let passing_x = passage(x, depth, size);
+    let passing_y = passage(y, depth, size);
+    var low = vec2<f32>(
+        least(select(vec3<f32>(BEYOND), u - stray, front)), least(select(vec3<f32>(BEYOND), v - stray, front)));
+    var high = vec2<f32>(
+        most(select(vec3<f32>(-BEYOND), u + stray, front)), most(select(vec3<f32>(-BEYOND), v + stray, front)));
+    low = (low - window.xy) / texel - print.pad;
+    high = (high - window.xy) / texel + print.pad;
+    low.x = select(low.x, -BEYOND, beside || any(passes & (passing_x <= vec3<f32>(0.0))));
+    low.y = select(low.y, -BEYOND, beside || any(passes & (passing_y <= vec3<f32>(0.0))));
+    high.x = select(high.x, BEYOND, beside || any(passes & (passing_x >= vec3<f32>(0.0))));
+    high.y = select(high.y, BEYOND, beside || any(passes & (passing_y >= vec3<f32>(0.0))));
     if !open && (any(high < vec2<f32>(0.0)) || any(low > vec2<f32>(f32(side)))) {
         print.touched = false;
     }
@@ -80,6 +90,18 @@ fn footprint_of(
     let bounds = abs(slope) > vec3<f32>(1e-30);
     print.turn = select(vec3<f32>(0.0), vec3<f32>(-1.0) / slope, bounds);
     return print;
+}
+
+fn light_uv_pad3(u: vec3<f32>, v: vec3<f32>) -> vec3<f32> {
+    return 1e-6 * (1.0 + u * u + v * v);
+}
+
+// Side, -1 or 1, on which each edge (from a corner to the next) passes the axis where its depth is zero; 0 where rounding hides it.
+fn passage(x: vec3<f32>, depth: vec3<f32>, size: vec3<f32>) -> vec3<f32> {
+    let crossing = x * depth.yzx - x.yzx * depth;
+    let slack = 1e-6 * (size * abs(depth.yzx) + size.yzx * abs(depth));
+    let side = sign(crossing) * sign(depth.yzx - depth);
+    return select(side, vec3<f32>(0.0), abs(crossing) <= slack);
 }
 
 fn least(v: vec3<f32>) -> f32 {

@@ -20,4 +20,5 @@ pub mod shading;
 pub mod shadow_lookup;
 pub mod shadow_map;
 pub mod shadow_raster;
+pub mod share;
 pub mod table_fill;

@@ -56,6 +56,11 @@ fn pyramid_of(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, light: vec3<f32>) -> Pyr
     );
 }
 
+// Whether two corners are one: such a triangle never blocks.
+fn is_collapsed(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    return all(a == b) || all(b == c) || all(c == a);
+}
+
 // A view-sample as pyramids take it: offset from the light sample, and a word that holds the triangle it lies on in its lower 24
 // bits, and above them the exponent of the clearance: a caster that meets the segment to the light sample at more than this share
 // of its length has a corner above the plane of that triangle, whatever rounding did. So it never is that triangle.
@@ -82,7 +87,8 @@ fn sample_of(place: vec3<f32>, own: u32, light: vec3<f32>) -> Sample {
         let below = max(plane.w * sum_of_sizes(to_place) - side * dot(plane.xyz, to_place), 0.0);
         clearance = select(1e30, 4.0 * below / above, above > 0.0 && 16.0 * below < above);
     }
-    // Rounded down to a power of two; the factor of four is for this, and for the share of the view-sample's own height.
+    // Met at share s, the segment is at least s above - (1 - s) below over the plane. The factor of four leaves room for rounding
+    // down to a power of two.
     let exponent = (bitcast<u32>(clearance) >> 23u) << 24u;
     return Sample(place - light, exponent | min(own, OWN_BITS));
 }
@@ -91,10 +97,11 @@ fn sample_clearance(sample: Sample) -> f32 {
     return bitcast<f32>((sample.own >> 24u) << 23u);
 }
 
+// Verdicts; of several casters, the greatest counts.
 const LIT: u32 = 0u;
-const BLOCKED: u32 = 1u;
 // Only predicate.wgsl can tell.
-const DOUBTFUL: u32 = 2u;
+const DOUBTFUL: u32 = 1u;
+const BLOCKED: u32 = 2u;
 
 // What the caster does to a view-sample, as far as f32 can vouch for it.
 fn pyramid_verdict(pyramid: Pyramid, caster: u32, sample: Sample) -> u32 {

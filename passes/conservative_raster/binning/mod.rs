@@ -13,11 +13,12 @@
 //! without gaps, in unspecified order. Cells without view-samples get no pairs.
 
 mod cpu;
+mod gpu;
 #[cfg(test)]
 mod tests;
 
 use super::STAGE;
-use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
+use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
 use shadowgraph_core::size::SizeCx;
 
 /// The pass.
@@ -37,10 +38,10 @@ pub static PASS: Pass = Pass {
         },
     ],
     contract: Contract::Superset,
-    features: &[],
+    features: &[Feature::IndirectExecution],
     size,
     cpu: Some(cpu::run),
-    gpu: None,
+    gpu: Some(gpu::record),
 };
 
 /// Pairs that fit where nothing is known yet, for kernels that cannot grow their outputs: a few cells a small caster, and

@@ -1,8 +1,9 @@
 //! The recipe: pack the view-samples, test small casters, share out large ones, decide what is doubtful.
 
 use crate::shared::light_frame;
-use shadowgraph_core::problem::{Kind, Problem};
-use shadowgraph_core::record::{Bind, Command, Dispatch, GpuCx, Groups, Shader, Target};
+use crate::shared::share::{Queue, check_hard, record_share};
+use shadowgraph_core::problem::Problem;
+use shadowgraph_core::record::{Bind, GpuCx, Target};
 use shadowgraph_core::shared::{GROUP, PRELUDE};
 
 const PREPARE: &[&str] = &[
@@ -12,7 +13,6 @@ const PREPARE: &[&str] = &[
     include_str!("../../shared/pyramid.wgsl"),
     include_str!("prepare.wgsl"),
 ];
-const SHARE: &[&str] = &[PRELUDE, include_str!("share.wgsl")];
 const KERNEL: &[&str] = &[
     PRELUDE,
     light_frame::WGSL,
@@ -34,13 +34,7 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     let sample_count = cx.dim("position", 0);
     let [face_count, side] = [cx.dim("list_length", 0), cx.dim("list_length", 1)];
     let cell_count = cx.words("list_length");
-    if cx.dim("light_samples", 0) != 1 {
-        return Err(Problem::new(Kind::Unsupported, "this pass answers for one light sample")
-            .port("light_samples")
-            .expected("1 row")
-            .found(format!("{} rows", cx.dim("light_samples", 0)))
-            .remedy("use a soft graph for an area light"));
-    }
+    check_hard(cx)?;
     let packed = cx.scratch("fused_packed", 4 * sample_count);
     let blocked = cx.scratch("fused_blocked", sample_count);
     let queue = cx.scratch("fused_queue", QUEUES * face_count * triangle_count);
@@ -82,18 +76,14 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
         Bind::ReadWrite(Target::Counters),
     ];
     cx.dispatch("fused", KERNEL, "fused", bind.clone(), triangle_count, GROUP);
-    for (kind, label, entry, casters, shares) in [
-        (0, "fused/rows", "fused_rows", 8, 1),
-        (1, "fused/shares", "fused_shares", 1, shares),
-        (2, "fused/row_doubts", "fused_row_doubts", 1, 1),
-        (3, "fused/share_doubts", "fused_share_doubts", 1, shares),
+    let rows = Queue { queued, word: 0, items: 8, groups: 1 };
+    for (label, entry, queue) in [
+        ("fused/rows", "fused_rows", rows),
+        ("fused/shares", "fused_shares", Queue { word: 1, items: 1, groups: shares, ..rows }),
+        ("fused/row_doubts", "fused_row_doubts", Queue { word: 2, items: 1, ..rows }),
+        ("fused/share_doubts", "fused_share_doubts", Queue { word: 3, items: 1, groups: shares, ..rows }),
     ] {
-        let groups = cx.scratch("fused_groups", 3);
-        let share = vec![Bind::Uniform(vec![casters, shares, kind]), Bind::Read(queued), Bind::ReadWrite(groups)];
-        cx.dispatch("fused/share", SHARE, "fused_share", share, 1, 1);
-        let shader = Shader { pieces: KERNEL, constants: Vec::new() };
-        let groups = Groups::Indirect(groups, 0);
-        cx.push(Command::Dispatch(Dispatch { label, shader, entry, bind: bind.clone(), groups }));
+        record_share(cx, label, KERNEL, entry, bind.clone(), queue);
     }
     let bind = vec![
         Bind::Uniform(vec![sample_count as u32, cell_count as u32]),

@@ -110,6 +110,9 @@ fn fused(@builtin(global_invocation_id) id: vec3<u32>) {
     let a = triangle_corner(triangle, 0u);
     let b = triangle_corner(triangle, 1u);
     let c = triangle_corner(triangle, 2u);
+    if is_collapsed(a, b, c) {
+        return;
+    }
     let pyramid = pyramid_of(a, b, c, light);
     for (var face = 0u; face < numbers.faces; face++) {
         if !light_valid(face) {

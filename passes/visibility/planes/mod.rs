@@ -13,11 +13,12 @@
 //! bounds can vouch for, and the exact predicate the rest. Takes one light sample; more is an error.
 
 mod cpu;
+mod gpu;
 #[cfg(test)]
 mod tests;
 
 use super::STAGE;
-use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
+use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
 use shadowgraph_core::size::SizeCx;
 
 /// The pass.
@@ -34,10 +35,10 @@ pub static PASS: Pass = Pass {
         kind: CounterKind::Info,
     }],
     contract: Contract::WrongBits(1e-5),
-    features: &[],
+    features: &[Feature::IndirectExecution],
     size,
     cpu: Some(cpu::run),
-    gpu: None,
+    gpu: Some(gpu::record),
 };
 
 fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
