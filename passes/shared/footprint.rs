@@ -27,6 +27,8 @@ pub struct Grid {
     pad: f64,
     /// Smallest and largest u, then v, at which view-samples may be.
     reach: [[f64; 2]; 2],
+    /// Largest |u| or |v| of those, at least one.
+    widest: f64,
     /// Largest depth of a view-sample, with room for rounding, scene units.
     far: f64,
     /// Factor that covers the rounding of a depth inside the window.
@@ -48,6 +50,15 @@ pub struct Footprint {
     lines: Option<[[f64; 3]; 3]>,
 }
 
+/// Where the view-samples of face `index` are, as far as the faces alone tell: where another face looks along each end of both
+/// axes, as in a cube, none lies further than 45 degrees out.
+pub fn reach_among(faces: &[Face], index: usize) -> Option<[[f32; 2]; 2]> {
+    let looks = |along| faces.iter().any(|face| face.axis_z == along);
+    let closed = |axis| looks(axis) && looks(-axis);
+    let face = &faces[index];
+    (closed(face.axis_x) && closed(face.axis_y)).then_some([[-1.00001, 1.00001]; 2])
+}
+
 impl Grid {
     /// `side` x `side` texels over the window of `face`. `reach` is where view-samples are, if known: smallest and largest u,
     /// then v.
@@ -59,11 +70,12 @@ impl Grid {
         let [u, v] = reach.map(|[low, high]| low.abs().max(high.abs()));
         let spread = 1.0 + u * u + v * v;
         let reach = reach.map(|[low, high]| [low - SLACK * spread, high + SLACK * spread]);
+        let widest = reach.iter().flatten().fold(1.0, |widest: f64, end| widest.max(end.abs()));
         let border_room = 1.0 + DEPTH_ERROR * spread.sqrt();
         let [u, v] = [0, 1].map(|axis| low[axis].abs().max((low[axis] + count * texel[axis]).abs()));
         let depth_room = 1.0 + 2.0 * DEPTH_ERROR * (1.0 + u * u + v * v).sqrt();
         let far = f64::from(face.far) * border_room;
-        Self { side, low, texel, pad: 1e-3 + 3e-7 * count, reach, far, depth_room, border_room }
+        Self { side, low, texel, pad: 1e-3 + 3e-7 * count, reach, widest, far, depth_room, border_room }
     }
 
     /// Whether a caster with smallest depth `near` is behind every view-sample of the cell at `column` and `row`, whose largest
@@ -73,6 +85,61 @@ impl Grid {
         let inner = 1..self.side - 1;
         let room = if inner.contains(&column) && inner.contains(&row) { self.depth_room } else { self.border_room };
         near > f64::from(list_far) * room
+    }
+
+    /// Whether a triangle with these corners in light space is wholly beside all view-samples: a cheap first look.
+    #[inline(always)]
+    pub fn is_beside(&self, corners: &[[f64; 3]; 3]) -> bool {
+        let sizes = corners.map(|corner| SLACK * size(corner));
+        (0..4).any(|plane| (0..3).all(|k| self.inside(plane, &corners[k]) < -sizes[k] * self.widest))
+    }
+
+    /// How far inside side plane `plane` (smallest u, largest u, smallest v, largest v) a direction is; negative outside.
+    #[inline(always)]
+    fn inside(&self, plane: usize, direction: &[f64; 3]) -> f64 {
+        let (axis, end) = (plane / 2, plane % 2);
+        let beyond = direction[axis] - self.reach[axis][end] * direction[2];
+        if end == 0 { beyond } else { -beyond }
+    }
+
+    /// Smallest and largest u, then v, of the part of a triangle inside all side planes: none when there is no such part, and
+    /// everything when it comes too near the light to tell.
+    fn clipped(&self, corners: &[[f64; 3]; 3]) -> Option<[[f64; 2]; 2]> {
+        // Each plane adds a corner at most.
+        let mut polygon = [[0.0; 3]; 7];
+        polygon[..3].copy_from_slice(corners);
+        let mut count = 3;
+        for plane in 0..4 {
+            let mut next = [[0.0; 3]; 7];
+            let mut kept = 0;
+            for k in 0..count {
+                let (a, b) = (polygon[k], polygon[(k + 1) % count]);
+                let (inside_a, inside_b) = (self.inside(plane, &a), self.inside(plane, &b));
+                if inside_a >= 0.0 {
+                    next[kept] = a;
+                    kept += 1;
+                }
+                if (inside_a < 0.0) != (inside_b < 0.0) {
+                    let t = inside_a / (inside_a - inside_b);
+                    next[kept] = [0, 1, 2].map(|axis| a[axis] + t * (b[axis] - a[axis]));
+                    kept += 1;
+                }
+            }
+            (polygon, count) = (next, kept);
+        }
+        let far = corners.iter().map(|corner| size(*corner)).fold(0.0, f64::max);
+        let mut ends = [[f64::MAX, f64::MIN]; 2];
+        for corner in &polygon[..count] {
+            // Rounding of a corner that nearly cancelled; its direction is lost.
+            if size(*corner) < 1e-7 * far || corner[2] <= 0.0 {
+                return Some([[f64::MIN, f64::MAX]; 2]);
+            }
+            for axis in 0..2 {
+                let at = corner[axis] / corner[2];
+                ends[axis] = [ends[axis][0].min(at), ends[axis][1].max(at)];
+            }
+        }
+        (count > 0).then_some(ends)
     }
 
     /// First and last texel along `axis` that the padded range meets; none when no view-sample is there.
@@ -117,18 +184,10 @@ impl Footprint {
         if near > grid.far {
             return None;
         }
-        let mut ends = [[f64::MAX, f64::MIN]; 2];
-        for corner in &cone.corners {
-            // Below this slope the corner's own direction says little; take the whole face.
-            if corner[2] <= 1e-3 * (corner[0].abs() + corner[1].abs()) {
-                return Some(Self { lines: Some(lines(cone)), ..Self::everything(grid) });
-            }
-            let reciprocal = 1.0 / corner[2];
-            for axis in 0..2 {
-                let at = corner[axis] * reciprocal;
-                ends[axis] = [ends[axis][0].min(at), ends[axis][1].max(at)];
-            }
-        }
+        let ends = match projected(&cone.corners) {
+            Some(ends) => ends,
+            None => grid.clipped(&cone.corners)?,
+        };
         let [u, v] = ends.map(|[low, high]| low.abs().max(high.abs()));
         let slack = SLACK * (1.0 + u * u + v * v);
         let ends = ends.map(|[low, high]| [low - slack, high + slack]);
@@ -167,6 +226,24 @@ impl Footprint {
         let span = [first.max(self.columns[0]), last.min(self.columns[1])];
         (span[0] <= span[1]).then_some(span)
     }
+}
+
+/// Smallest and largest u, then v, of the corners; none when one is beside or behind the face, where its own direction says
+/// little.
+#[inline(always)]
+fn projected(corners: &[[f64; 3]; 3]) -> Option<[[f64; 2]; 2]> {
+    let mut ends = [[f64::MAX, f64::MIN]; 2];
+    for corner in corners {
+        if corner[2] <= 1e-3 * (corner[0].abs() + corner[1].abs()) {
+            return None;
+        }
+        let reciprocal = 1.0 / corner[2];
+        for axis in 0..2 {
+            let at = corner[axis] * reciprocal;
+            ends[axis] = [ends[axis][0].min(at), ends[axis][1].max(at)];
+        }
+    }
+    Some(ends)
 }
 
 /// Edge functions scaled to a size of one, so that slack is absolute. A zero function bounds nothing.

@@ -137,11 +137,23 @@ impl LightSpace {
         (Spot { u: u as f32, v: v as f32, q: q as f32 }, tame)
     }
 
+    /// Corners of `caster` in light space.
+    #[inline(always)]
+    pub fn corners(&self, caster: &Corners) -> [[f64; 3]; 3] {
+        let [a, b, c] = *caster;
+        [a, b, c].map(|corner| self.turn(minus(corner, self.origin)))
+    }
+
     /// What `caster` can block on this face.
     #[inline(always)]
     pub fn reach(&self, caster: &Corners) -> Reach {
+        self.reach_of(caster, self.corners(caster))
+    }
+
+    /// What `caster` can block on this face; `corners` are its corners in light space.
+    #[inline(always)]
+    pub fn reach_of(&self, caster: &Corners, corners: [[f64; 3]; 3]) -> Reach {
         let [a, b, c] = *caster;
-        let corners = [a, b, c].map(|corner| self.turn(minus(corner, self.origin)));
         let sizes = corners.map(size);
         let far = sizes[0].max(sizes[1]).max(sizes[2]);
         // View-samples that are not wild lie in front of the face's own plane by more than 7e-6 of their distance.

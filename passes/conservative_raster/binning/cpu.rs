@@ -1,6 +1,6 @@
 //! Casters in parallel; each walks its footprint and claims a slot in every cell that matters.
 
-use crate::shared::footprint::{Footprint, Grid};
+use crate::shared::footprint::{Footprint, Grid, reach_among};
 use crate::shared::light_frame;
 use crate::shared::predicate::Corners;
 use crate::shared::pyramid::{LightSpace, Reach};
@@ -19,13 +19,39 @@ const CASTERS_A_TASK: usize = 256;
 struct Binning<'a> {
     triangles: &'a [Corners],
     caster_state: &'a [u32],
-    list_length: &'a [u32],
+    full: Full,
     list_far: &'a [f32],
     faces: Vec<(LightSpace, Grid)>,
     caster_length: Vec<AtomicU32>,
     pairs: AtomicU64,
     behind: AtomicU64,
     most_pairs: u64,
+}
+
+/// Cells that have view-samples: most have none where six faces share them.
+struct Full {
+    cells: Vec<u32>,
+    /// How many of them lie before each cell.
+    before: Vec<u32>,
+}
+
+impl Full {
+    fn new(list_length: &[u32]) -> Self {
+        let cells: Vec<u32> = (0..list_length.len() as u32).filter(|cell| list_length[*cell as usize] > 0).collect();
+        let mut before = Vec::with_capacity(list_length.len() + 1);
+        let mut count = 0;
+        for length in list_length {
+            before.push(count);
+            count += u32::from(*length > 0);
+        }
+        before.push(count);
+        Self { cells, before }
+    }
+
+    /// Those from cell `first` to cell `last`.
+    fn between(&self, first: usize, last: usize) -> &[u32] {
+        &self.cells[self.before[first] as usize..self.before[last + 1] as usize]
+    }
 }
 
 /// One pair: cell, slot, caster.
@@ -45,9 +71,14 @@ pub(super) fn run_within(cx: &mut CpuCx, most_pairs: u64) -> Result<(), Problem>
     let binning = Binning {
         triangles: bytemuck::cast_slice(cx.input("triangles").as_f32()),
         caster_state: cx.input("caster_state").as_u32(),
-        list_length,
         list_far: cx.input("list_far").as_f32(),
-        faces: faces.iter().map(|face| (LightSpace::new(face), Grid::new(face, side, None))).collect(),
+        faces: (0..faces.len())
+            .map(|index| {
+                let face = &faces[index];
+                (LightSpace::new(face), Grid::new(face, side, reach_among(&faces, index)))
+            })
+            .collect(),
+        full: Full::new(list_length),
         caster_length: list_length.iter().map(|_| AtomicU32::new(0)).collect(),
         pairs: AtomicU64::new(0),
         behind: AtomicU64::new(0),
@@ -103,7 +134,11 @@ impl Binning<'_> {
     /// Calls `pair` with each cell of `face` that `caster` is to be listed in.
     fn caster(&self, face: usize, caster: usize, behind: &mut u64, mut pair: impl FnMut(usize)) {
         let (space, grid) = &self.faces[face];
-        let (near, footprint) = match space.reach(&self.triangles[caster]) {
+        let corners = space.corners(&self.triangles[caster]);
+        if grid.is_beside(&corners) {
+            return;
+        }
+        let (near, footprint) = match space.reach_of(&self.triangles[caster], corners) {
             Reach::Nothing => return,
             Reach::Anything => (f64::MIN, Footprint::everything(grid)),
             Reach::Cone(cone) => match Footprint::new(&cone, grid) {
@@ -116,12 +151,9 @@ impl Binning<'_> {
                 continue;
             };
             let start = (face * grid.side + row) * grid.side;
-            for column in first..=last {
-                let cell = start + column;
-                if self.list_length[cell] == 0 {
-                    continue;
-                }
-                if grid.is_behind(near, self.list_far[cell], [column, row]) {
+            for cell in self.full.between(start + first, start + last) {
+                let cell = *cell as usize;
+                if grid.is_behind(near, self.list_far[cell], [cell - start, row]) {
                     *behind += 1;
                 } else {
                     pair(cell);

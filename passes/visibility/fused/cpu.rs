@@ -77,7 +77,11 @@ impl Walk<'_> {
     fn caster<S: Simd>(&self, simd: S, face: usize, caster: usize, corners: &Corners) -> u64 {
         let grid = &self.grids[face];
         let range = &self.receivers.faces[face];
-        let (cone, footprint, planes) = match range.space.reach(corners) {
+        let turned = range.space.corners(corners);
+        if grid.is_beside(&turned) {
+            return 0;
+        }
+        let (cone, footprint, planes) = match range.space.reach_of(corners, turned) {
             Reach::Nothing => return 0,
             Reach::Anything => (None, Footprint::everything(grid), Planes::ANYTHING),
             Reach::Cone(cone) => {
