@@ -1,6 +1,7 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
 mod bench;
+mod contamination;
 mod docs;
 mod gpu;
 mod graphs;
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
     trials.extend(graphs::trials());
     trials.extend(twins::controls());
     trials.extend(twins::trials());
+    trials.extend(contamination::trials());
     trials.extend(truth::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
