@@ -6,34 +6,23 @@ use libtest_mimic::{Failed, Trial};
 use shadowgraph::commands::verify::verify;
 use shadowgraph::engine::Machine;
 
-/// Scenes with parameters that keep the suite quick.
-const SCENES: &[&str] = &[
-    "aligned",
-    "camera-inside",
-    "columns",
-    "contact",
-    "coplanar-P",
-    "degenerate",
-    "depth-noise?blades=3000",
-    "far-light",
-    "grass-ring?blades=2000",
-    "grazing",
-    "hairball?strands=300",
-    "hidden",
-    "light-inside",
-    "list-overload",
-    "long-view",
-    "nonmanifold",
-    "omni",
-    "open",
-    "random-triangles?count=5000",
-    "self",
-    "thin",
-    "torus-knot",
-    "transparent",
-    "two-depths",
-    "zoom",
+/// Parameters that keep heavy scenes quick; every other built-in scene runs as it is.
+const LIGHTER: &[(&str, &str)] = &[
+    ("random-triangles", "count=5000"),
+    ("hairball", "strands=300"),
+    ("grass-ring", "blades=2000"),
+    ("depth-noise", "count=3000"),
 ];
+
+/// Every built-in scene.
+fn scenes() -> Vec<String> {
+    let name = |scene: &shadowgraph_scenes::builtin::Builtin| match LIGHTER.iter().find(|(name, _)| *name == scene.name)
+    {
+        Some((name, params)) => format!("{name}?{params}"),
+        None => scene.name.to_string(),
+    };
+    shadowgraph_scenes::builtin::list().iter().map(name).collect()
+}
 
 /// Graphs that promise exact answers, and how many wrong bits a GPU may have.
 const EXACT: &[&str] = &["hard", "hard_fused"];
@@ -42,11 +31,13 @@ const GPU_SHARE: f64 = 1e-5;
 /// One trial a scene, graph and backend, and the controls.
 pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
-    for scene in SCENES {
+    for scene in scenes() {
         for graph in EXACT {
-            let run = move || check(graph, scene, "160x120", "cpu", 0.0);
+            let name = scene.clone();
+            let run = move || check(graph, &name, "160x120", "cpu", 0.0);
             trials.push(Trial::test(format!("truth/{graph}/{scene}/cpu"), run));
-            let run = move |_: &_| check(graph, scene, "96x72", "wgpu", GPU_SHARE);
+            let name = scene.clone();
+            let run = move |_: &_| check(graph, &name, "96x72", "wgpu", GPU_SHARE);
             trials.push(gpu::trial(format!("truth/{graph}/{scene}/wgpu"), run));
         }
     }

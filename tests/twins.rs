@@ -93,15 +93,18 @@ fn node_faults(node: &Node, inputs: Named, cpu: &[(&'static str, &Array)], gpu: 
             .iter()
             .filter_map(|(name, wanted)| {
                 let found = port(name)?;
-                value_fault(wanted, found, node.pass.contract).map(|fault| format!("{}.{name}: {fault}", node.id))
+                // A pixel centre within rounding of an edge may see either triangle; the rasteriser snaps corners to a grid.
+                let one_in = if node.pass.stage.name == "view_samples" { 200 } else { 1000 };
+                value_fault(wanted, found, node.pass.contract, one_in)
+                    .map(|fault| format!("{}.{name}: {fault}", node.id))
             })
             .collect(),
     }
 }
 
-/// Floats within the contract's bound relative to the larger of 1 and the value; whole numbers equal but for a share of one in
-/// a thousand where two roundings may choose neighbouring triangles or texels.
-fn value_fault(wanted: &Array, found: &Array, contract: Contract) -> Option<String> {
+/// Floats within the contract's bound relative to the larger of 1 and the value; whole numbers equal but for one in
+/// `one_in` where two roundings may choose neighbouring triangles or texels.
+fn value_fault(wanted: &Array, found: &Array, contract: Contract, one_in: usize) -> Option<String> {
     if wanted.shape() != found.shape() {
         return Some(format!("shape {:?}, not {:?}", found.shape(), wanted.shape()));
     }
@@ -118,7 +121,7 @@ fn value_fault(wanted: &Array, found: &Array, contract: Contract) -> Option<Stri
         }
     };
     let count = (0..wanted.words().len()).filter(differs).count();
-    let allowed = if bound == 0.0 { 0 } else { wanted.words().len() / 1000 + 1 };
+    let allowed = if bound == 0.0 { 0 } else { wanted.words().len() / one_in + 1 };
     (count > allowed).then(|| {
         let first = (0..wanted.words().len()).find(|index| differs(index)).unwrap_or(0);
         format!("{count} of {} words differ, first word {first}", wanted.words().len())
@@ -174,10 +177,10 @@ pub fn controls() -> Vec<Trial> {
         let wanted = Array::f32([4], vec![1.0, 2.0, 3.0, 4.0]);
         let found = Array::f32([4], vec![1.0, 2.5, 3.0, 4.5]);
         let whole = Array::u32([2], vec![1, 2]);
-        assert!(value_fault(&wanted, &wanted, Contract::Exact).is_none());
-        assert!(value_fault(&wanted, &found, Contract::Within(0.1)).is_some());
-        assert!(value_fault(&whole, &Array::u32([2], vec![1, 3]), Contract::Exact).is_some());
-        assert!(value_fault(&whole, &Array::u32([1], vec![1]), Contract::Exact).is_some());
+        assert!(value_fault(&wanted, &wanted, Contract::Exact, 1000).is_none());
+        assert!(value_fault(&wanted, &found, Contract::Within(0.1), 1000).is_some());
+        assert!(value_fault(&whole, &Array::u32([2], vec![1, 3]), Contract::Exact, 1000).is_some());
+        assert!(value_fault(&whole, &Array::u32([1], vec![1]), Contract::Exact, 1000).is_some());
         let offsets = [("list_offset", Array::u32([3], vec![0, 2, 3]))];
         let (one, same, other) =
             (Array::u32([3], vec![5, 6, 7]), Array::u32([3], vec![6, 5, 7]), Array::u32([3], vec![6, 7, 5]));
