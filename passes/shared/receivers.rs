@@ -10,7 +10,7 @@ use super::light_frame::Face;
 use super::predicate::Pyramid;
 use super::pyramid::{Cone, LightSpace, Planes, Reach, Spot};
 use super::receiver_tree::{self, Trees};
-use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f32x16};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f32x16, u32x16};
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Mutex;
@@ -51,6 +51,8 @@ pub struct FaceRange {
 pub struct Receivers<'a> {
     /// Coordinates; place i is lane i % 16 of chunk i / 16.
     pub chunks: Vec<Chunk>,
+    /// Triangles that the view-samples lie on, by place.
+    pub own: Vec<[u32; LANES]>,
     /// Bit set: blocked, or nobody is there. One word a chunk.
     pub blocked: Vec<AtomicU16>,
     /// View-samples by list offset; long lists are put in order.
@@ -100,6 +102,7 @@ impl<'a> Receivers<'a> {
         }
         let mut receivers = Self {
             chunks: vec![Chunk::default(); places / LANES],
+            own: vec![[0; LANES]; places / LANES],
             blocked: Vec::new(),
             entries,
             faces: ranges,
@@ -121,14 +124,15 @@ impl<'a> Receivers<'a> {
         let span = start / LANES..end.div_ceil(LANES);
         let wild = Mutex::new(Vec::new());
         let level = Level::new();
-        let reached = (&mut self.chunks[span.clone()], &mut self.blocked[span])
+        let reached = (&mut self.chunks[span.clone()], &mut self.own[span.clone()], &mut self.blocked[span])
             .into_par_iter()
             .zip(self.entries[start - shift..end - shift].par_chunks(LANES))
             .with_min_len(256)
-            .fold(Reached::default, |mut reached, ((chunk, blocked), list)| {
+            .fold(Reached::default, |mut reached, ((chunk, own, blocked), list)| {
                 let missing = u16::MAX.checked_shl(list.len() as u32).unwrap_or(0);
                 let mut positions = [[0.0; LANES]; 3];
                 for (lane, sample) in list.iter().enumerate() {
+                    own[lane] = scene.triangle[*sample as usize];
                     let position = scene.position[*sample as usize];
                     for axis in 0..3 {
                         positions[axis][lane] = position[axis];
@@ -176,7 +180,10 @@ impl<'a> Receivers<'a> {
                 continue;
             }
             tested.open = true;
-            let left = candidates(simd, planes, &self.chunks[index]) & open;
+            let mut left = candidates(simd, planes, &self.chunks[index]) & open;
+            if left != 0 {
+                left &= !lying_on(simd, settle.caster, &self.own[index]);
+            }
             if left != 0 {
                 tested.hits += settle.chunk(self, index, left);
             }
@@ -245,10 +252,7 @@ impl<'a> Settle<'a> {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
             let sample = receivers.entries[index * LANES + lane - self.face.shift] as usize;
-            let own = self.scene.triangle[sample];
-            if own == self.caster {
-                continue;
-            }
+            let own = receivers.own[index][lane];
             let spot = Spot { u: chunk.u[lane], v: chunk.v[lane], q: chunk.q[lane] };
             let covers = match cone.and_then(|cone| cone.covers(&spot)) {
                 Some(false) => false,
@@ -278,6 +282,12 @@ pub fn candidates<S: Simd>(simd: S, planes: &Planes, chunk: &Chunk) -> u16 {
     let value = |k: usize| u * planes.u[k] + v * planes.v[k] + planes.one[k];
     let inside = value(0).min(value(1)).min(value(2).min(value(3) + q * planes.q));
     inside.simd_ge(0.0).to_bitmask() as u16
+}
+
+/// Lanes whose view-samples lie on triangle `caster`: a triangle does not block them, whatever rounding says.
+#[inline(always)]
+fn lying_on<S: Simd>(simd: S, caster: u32, own: &[u32; LANES]) -> u16 {
+    u32x16::from_slice(simd, own).simd_eq(caster).to_bitmask() as u16
 }
 
 /// Projects sixteen positions into `chunk`; the lanes that are wild.
