@@ -19,6 +19,9 @@ use std::sync::atomic::{AtomicU16, Ordering::Relaxed};
 /// Nothing reached.
 const EMPTY: [[f32; 2]; 2] = [[f32::MAX, f32::MIN]; 2];
 
+/// Chunks between asking for a view-sample's memory and using it.
+const AHEAD: usize = 6;
+
 /// View-samples of a chunk.
 pub const LANES: usize = 16;
 
@@ -124,11 +127,17 @@ impl<'a> Receivers<'a> {
         let span = start / LANES..end.div_ceil(LANES);
         let wild = Mutex::new(Vec::new());
         let level = Level::new();
+        let entries = &self.entries[start - shift..end - shift];
         let reached = (&mut self.chunks[span.clone()], &mut self.own[span.clone()], &mut self.blocked[span])
             .into_par_iter()
-            .zip(self.entries[start - shift..end - shift].par_chunks(LANES))
+            .zip(entries.par_chunks(LANES))
+            .enumerate()
             .with_min_len(256)
-            .fold(Reached::default, |mut reached, ((chunk, own, blocked), list)| {
+            .fold(Reached::default, |mut reached, (index, ((chunk, own, blocked), list))| {
+                for sample in entries.iter().skip((index + AHEAD) * LANES).take(LANES) {
+                    prefetch(&scene.position[*sample as usize]);
+                    prefetch(&scene.triangle[*sample as usize]);
+                }
                 let missing = u16::MAX.checked_shl(list.len() as u32).unwrap_or(0);
                 let mut positions = [[0.0; LANES]; 3];
                 for (lane, sample) in list.iter().enumerate() {
@@ -288,6 +297,20 @@ pub fn candidates<S: Simd>(simd: S, planes: &Planes, chunk: &Chunk) -> u16 {
 #[inline(always)]
 fn lying_on<S: Simd>(simd: S, caster: u32, own: &[u32; LANES]) -> u16 {
     u32x16::from_slice(simd, own).simd_eq(caster).to_bitmask() as u16
+}
+
+/// Asks for the memory of `value` ahead of its use.
+#[inline(always)]
+#[cfg_attr(target_arch = "x86_64", expect(unsafe_code, reason = "the intrinsic takes a pointer"))]
+fn prefetch<T>(value: &T) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a prefetch reads and writes nothing that a program sees, and the pointer is that of a reference.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(value).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = value;
 }
 
 /// Projects sixteen positions into `chunk`; the lanes that are wild.

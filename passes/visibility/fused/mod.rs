@@ -9,6 +9,16 @@
 //!
 //! On the CPU the mask equals [`crate::shared::predicate::blocks`] bit for bit, as that of `planes` does. Takes one light
 //! sample; more is an error.
+//!
+//! What makes it fast there, and what each part was found to bring on two threads of an AVX-512 machine:
+//! - texels of a row are neighbours in the list table, so a caster's row is one run, tested sixteen at a time in (u, v, 1/depth),
+//!   where three of four planes need no depth: a test costs a few nanoseconds, setting up a caster under a hundred;
+//! - no caster table: at a million triangles 0.6 of the time of binning, filling and `planes`;
+//! - positions asked for ahead of their use when lists are gathered: a quarter less at a thousand triangles, where gathering is
+//!   most of the work;
+//! - side planes of where view-samples are, tried before anything else: a third less where six faces see the scene;
+//! - trees over long lists ([`crate::shared::receiver_tree`]): all of a 1024 x 768 view in one texel costs three times the
+//!   time of short lists instead of thousands.
 
 mod cpu;
 mod gpu;
