@@ -5,9 +5,11 @@
 //! `triangle [P]`, `sample_state [P]`. Out: `mask [P ceil(L/32)]`, bit set = blocked; all bits set for a view-sample facing away,
 //! unused ones too, none for background.
 //!
-//! Tree, traversal and triangle test are those of the obvhs crate. A ray runs from 0 at the view-sample to 1 at the light
-//! sample; there is no bias: the view-sample's own triangle is left out by its index. The test is not watertight and rounds,
-//! so a few bits differ from the truth, mostly where a view-sample nearly touches a neighbour of its own triangle.
+//! Tree and traversal are those of the obvhs crate. A ray runs from 0 at the view-sample to 1 at the light sample; there is no
+//! bias: the view-sample's own triangle is left out by its index. The triangle test lets nothing through shared edges (a ray
+//! that meets a corner exactly may still slip through), but it rounds: some bits in a million differ from the truth, where a
+//! view-sample nearly touches another triangle. On coincident faces it fails: one shadows the other's view-samples, which the
+//! truth's rule of the own plane rules out.
 //!
 //! CPU only: the tree is built there.
 

@@ -59,3 +59,47 @@ fn random_soup_stays_within_the_contract_at_every_scale() {
         assert!(wrong * 1_000 <= rows, "{wrong} of {rows} wrong at scale {scale}");
     }
 }
+
+#[test]
+fn collinear_slivers_cast_next_to_nothing() {
+    // Collinear but for rounding, all between the light and a grid of view-samples.
+    let seed = &mut 6;
+    let triangles: Vec<Corners> = (0..60)
+        .map(|_| {
+            let (a, b) = ([0; 3].map(|_| random(seed)), [0; 3].map(|_| random(seed)));
+            [a, b, [0, 1, 2].map(|k| (a[k] + b[k]) / 2.0)]
+        })
+        .collect();
+    let grid = |k: usize| [(k % 50) as f32 / 25.0 - 1.0, -1.5, (k / 50) as f32 / 25.0 - 1.0];
+    let position: Vec<[f32; 3]> = (0..2_500).map(grid).collect();
+    let (own, states) = (vec![NO_TRIANGLE; 2_500], vec![KEPT; 2_500]);
+    let masks = answer(&triangles, &[1; 60], &[[0.1, 3.0, 0.2]], &position, &own, &states, &|_, _| {});
+    assert!(masks.iter().sum::<u32>() <= 2, "{}", masks.iter().sum::<u32>());
+}
+
+#[test]
+fn a_sheet_of_many_triangles_has_no_leak_along_its_edges() {
+    // A grid of thirds, which f32 rounds, below a light whose rays pass its corners and edges.
+    let corner = |x: usize, z: usize| [x as f32 / 3.0, 0.1 * ((x + z) % 3) as f32, z as f32 / 3.0];
+    let triangles: Vec<Corners> = (0..100)
+        .flat_map(|cell| {
+            let (x, z) = (cell % 10, cell / 10);
+            let [a, b, c, d] = [corner(x, z), corner(x + 1, z), corner(x, z + 1), corner(x + 1, z + 1)];
+            [[a, c, b], [b, c, d]]
+        })
+        .collect();
+    let light = [1.7f32, 5.0, 1.3];
+    // Twice as far from the light as points of inner edges: their middles, and their ends.
+    let beyond = |p: [f32; 3], q: [f32; 3]| [0, 1, 2].map(|k| p[k] + q[k] - light[k]);
+    let inner = || (1..9).flat_map(|x| (1..9).map(move |z| (x, z)));
+    let middles = inner().flat_map(|(x, z)| [(x + 1, z), (x, z + 1), (x + 1, z - 1)].map(|(i, j)| (x, z, i, j)));
+    let middles: Vec<_> = middles.map(|(x, z, i, j)| beyond(corner(x, z), corner(i, j))).collect();
+    let ends: Vec<_> = inner().map(|(x, z)| beyond(corner(x, z), corner(x, z))).collect();
+    let leaks = |position: &[[f32; 3]]| {
+        let (own, states) = (vec![NO_TRIANGLE; position.len()], vec![KEPT; position.len()]);
+        let masks = answer(&triangles, &[1; 200], &[light], position, &own, &states, &|_, _| {});
+        masks.iter().filter(|mask| **mask == 0).count()
+    };
+    assert_eq!(leaks(&middles), 0);
+    assert!(leaks(&ends) <= 3, "{} leaks at corners", leaks(&ends));
+}
