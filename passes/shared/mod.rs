@@ -4,12 +4,14 @@ pub mod atomic_words;
 pub mod bvh;
 pub mod camera;
 pub mod contact;
+pub mod expand;
 pub mod footprint;
 pub mod hard;
 #[cfg(test)]
 pub mod hard_scenes;
 pub mod light_fit;
 pub mod light_frame;
+pub mod packed;
 pub mod predicate;
 pub mod pyramid;
 pub mod receiver_tree;

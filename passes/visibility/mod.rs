@@ -3,6 +3,7 @@
 pub mod bvh_rays;
 pub mod exact;
 pub mod fused;
+pub mod fused_draw;
 pub mod planes;
 
 use crate::ports;
@@ -34,4 +35,4 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS, &exact::PASS, &bvh_rays::PASS];
+pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS];

@@ -17,9 +17,8 @@ mod gpu;
 #[cfg(test)]
 mod tests;
 
-use super::STAGE;
+use super::{PAIRS, STAGE, pairs_size};
 use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
-use shadowgraph_core::size::SizeCx;
 
 /// The pass.
 pub static PASS: Pass = Pass {
@@ -30,7 +29,7 @@ pub static PASS: Pass = Pass {
     ignores: &[],
     params: &[],
     counters: &[
-        Counter { name: "pairs", doc: "(cell, caster) pairs", kind: CounterKind::Rows("pair_cell") },
+        PAIRS,
         Counter {
             name: "pairs_behind",
             doc: "pairs left out because every view-sample of the cell is nearer than the caster",
@@ -39,16 +38,7 @@ pub static PASS: Pass = Pass {
     ],
     contract: Contract::Superset,
     features: &[Feature::IndirectExecution],
-    size,
+    size: pairs_size,
     cpu: Some(cpu::run),
     gpu: Some(gpu::record),
 };
-
-/// Pairs that fit where nothing is known yet, for kernels that cannot grow their outputs: a few cells a small caster, and
-/// four layers of casters over every cell. The CPU function allocates what it needs.
-fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
-    let cells: Vec<usize> = (0..3).map(|axis| cx.dim("list_length", axis)).collect();
-    let first = 8 * cx.dim("triangles", 0) + 4 * cells.iter().product::<usize>();
-    let pairs = vec![cx.capacity("pair_cell", first)];
-    vec![("pair_cell", pairs.clone()), ("pair_slot", pairs.clone()), ("pair_caster", pairs), ("caster_length", cells)]
-}

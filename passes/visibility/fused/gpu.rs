@@ -1,18 +1,12 @@
 //! The recipe: pack the view-samples, test small casters, share out large ones, decide what is doubtful.
 
 use crate::shared::light_frame;
+use crate::shared::packed::{record_pack, record_unpack};
 use crate::shared::share::{Queue, check_hard, record_share};
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::{Bind, GpuCx, Target};
 use shadowgraph_core::shared::{GROUP, PRELUDE};
 
-const PREPARE: &[&str] = &[
-    PRELUDE,
-    light_frame::WGSL,
-    include_str!("../../shared/predicate.wgsl"),
-    include_str!("../../shared/pyramid.wgsl"),
-    include_str!("prepare.wgsl"),
-];
 const KERNEL: &[&str] = &[
     PRELUDE,
     light_frame::WGSL,
@@ -21,7 +15,6 @@ const KERNEL: &[&str] = &[
     include_str!("../../shared/footprint.wgsl"),
     include_str!("kernel.wgsl"),
 ];
-const FINISH: &[&str] = &[PRELUDE, include_str!("finish.wgsl")];
 
 /// View-samples that one invocation of a shared caster tests at most; `ROW_SAMPLES` in the kernel.
 const ROW_SAMPLES: usize = 2048;
@@ -33,31 +26,11 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     let triangle_count = cx.dim("triangles", 0);
     let sample_count = cx.dim("position", 0);
     let [face_count, side] = [cx.dim("list_length", 0), cx.dim("list_length", 1)];
-    let cell_count = cx.words("list_length");
     check_hard(cx)?;
-    let packed = cx.scratch("fused_packed", 4 * sample_count);
-    let blocked = cx.scratch("fused_blocked", sample_count);
     let queue = cx.scratch("fused_queue", QUEUES * face_count * triangle_count);
     let queued = cx.scratch("fused_queued", QUEUES + face_count);
     cx.zero(queued);
-    let bind = vec![
-        Bind::Uniform(vec![sample_count as u32, cell_count as u32, side as u32, 0]),
-        Bind::Read(Target::Port("triangles")),
-        Bind::Read(Target::Port("light_frame")),
-        Bind::Read(Target::Port("light_samples")),
-        Bind::Read(Target::Port("position")),
-        Bind::Read(Target::Port("triangle")),
-        Bind::Read(Target::Port("cell")),
-        Bind::Read(Target::Port("list_offset")),
-        Bind::Read(Target::Port("list_entries")),
-        Bind::ReadWrite(packed),
-        Bind::ReadWrite(blocked),
-        Bind::ReadWrite(queued),
-        Bind::Read(Target::Port("sample_state")),
-        Bind::ReadWrite(Target::Port("mask")),
-    ];
-    cx.dispatch("fused/prepare", PREPARE, "fused_prepare", bind, sample_count, GROUP);
-
+    let packed = record_pack(cx, queued, QUEUES);
     let shares = sample_count.div_ceil(GROUP * ROW_SAMPLES).max(1) as u32;
     let bind = vec![
         Bind::Uniform(vec![triangle_count as u32, face_count as u32, side as u32, shares, 0]),
@@ -69,8 +42,8 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
         Bind::Read(Target::Port("list_entries")),
         Bind::Read(Target::Port("position")),
         Bind::Read(Target::Port("triangle")),
-        Bind::Read(packed),
-        Bind::ReadWrite(blocked),
+        Bind::Read(packed.sample),
+        Bind::ReadWrite(packed.blocked),
         Bind::ReadWrite(queue),
         Bind::ReadWrite(queued),
         Bind::ReadWrite(Target::Counters),
@@ -85,13 +58,6 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     ] {
         record_share(cx, label, KERNEL, entry, bind.clone(), queue);
     }
-    let bind = vec![
-        Bind::Uniform(vec![sample_count as u32, cell_count as u32]),
-        Bind::Read(Target::Port("list_offset")),
-        Bind::Read(Target::Port("list_entries")),
-        Bind::Read(blocked),
-        Bind::ReadWrite(Target::Port("mask")),
-    ];
-    cx.dispatch("fused/finish", FINISH, "fused_finish", bind, sample_count, GROUP);
+    record_unpack(cx, packed);
     Ok(())
 }

@@ -3,6 +3,8 @@ struct Numbers {
     samples: u32,
     cells: u32,
     side: u32,
+    // First word of `beyond` that is a face's.
+    beyond: u32,
     zero: u32,
 }
 @group(0) @binding(0) var<uniform> numbers: Numbers;
@@ -14,16 +16,14 @@ struct Numbers {
 @group(0) @binding(6) var<storage, read> cell: array<u32>;
 @group(0) @binding(7) var<storage, read> list_offset: array<u32>;
 @group(0) @binding(8) var<storage, read> list_entries: array<u32>;
-// Four words for each list entry: a `Sample`.
+// In list order: a `Sample`, and 0.
 @group(0) @binding(9) var<storage, read_write> packed: array<vec4<u32>>;
 @group(0) @binding(10) var<storage, read_write> blocked: array<u32>;
-// From word OPEN on, for each face, 1 if view-samples lie beyond its window.
-@group(0) @binding(11) var<storage, read_write> queued: array<atomic<u32>>;
+// For each face, 1 if view-samples lie beyond its window.
+@group(0) @binding(11) var<storage, read_write> beyond: array<atomic<u32>>;
 
 @group(0) @binding(12) var<storage, read> sample_state: array<u32>;
 @group(0) @binding(13) var<storage, read_write> mask: array<u32>;
-
-const OPEN: u32 = 4u;
 
 fn opaque_zero() -> u32 {
     return numbers.zero;
@@ -31,7 +31,7 @@ fn opaque_zero() -> u32 {
 
 // Starts the masks, and packs what the tests read of each view-sample in list order, so that a row of texels is one run of memory.
 @compute @workgroup_size(64)
-fn fused_prepare(@builtin(global_invocation_id) id: vec3<u32>) {
+fn pack(@builtin(global_invocation_id) id: vec3<u32>) {
     let light = vec3<f32>(light_samples[0], light_samples[1], light_samples[2]);
     let total = list_offset[numbers.cells];
     let entry = linear_index(id);
@@ -51,8 +51,7 @@ fn fused_prepare(@builtin(global_invocation_id) id: vec3<u32>) {
     let uv = vec2<f32>(light_dot(light_axis_x(face), sample.offset), light_dot(light_axis_y(face), sample.offset)) / depth;
     let window = light_window(face);
     let stray = light_uv_pad(uv.x, uv.y);
-    // Footprints reach half as far again beyond a window that is not open.
     if any(uv < window.xy - stray) || any(uv > window.xy + window.zw + stray) {
-        atomicStore(&queued[OPEN + face], 1u);
+        atomicStore(&beyond[numbers.beyond + face], 1u);
     }
 }

@@ -10,7 +10,7 @@ struct Numbers {
 @group(0) @binding(4) var<storage, read_write> mask: array<u32>;
 
 @compute @workgroup_size(64)
-fn fused_finish(@builtin(global_invocation_id) id: vec3<u32>) {
+fn unpack(@builtin(global_invocation_id) id: vec3<u32>) {
     let total = list_offset[numbers.cells];
     let entry = linear_index(id);
     if entry < total {
