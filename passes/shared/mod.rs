@@ -13,6 +13,7 @@ pub mod light_fit;
 pub mod light_frame;
 pub mod packed;
 pub mod predicate;
+pub mod prefetch;
 pub mod pyramid;
 pub mod receiver_tree;
 pub mod receivers;

@@ -8,6 +8,7 @@
 use super::hard::{OwnMemo, Scene};
 use super::light_frame::Face;
 use super::predicate::Pyramid;
+use super::prefetch::prefetch;
 use super::pyramid::{Cone, LightSpace, Planes, Reach, Spot};
 use super::receiver_tree::{self, Trees};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f32x16, u32x16};
@@ -297,20 +298,6 @@ pub fn candidates<S: Simd>(simd: S, planes: &Planes, chunk: &Chunk) -> u16 {
 #[inline(always)]
 fn lying_on<S: Simd>(simd: S, caster: u32, own: &[u32; LANES]) -> u16 {
     u32x16::from_slice(simd, own).simd_eq(caster).to_bitmask() as u16
-}
-
-/// Asks for the memory of `value` ahead of its use.
-#[inline(always)]
-#[cfg_attr(target_arch = "x86_64", expect(unsafe_code, reason = "the intrinsic takes a pointer"))]
-fn prefetch<T>(value: &T) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a prefetch reads and writes nothing that a program sees, and the pointer is that of a reference.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(value).cast()) };
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = value;
 }
 
 /// Projects sixteen positions into `chunk`; the lanes that are wild.

@@ -10,6 +10,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::problem::Problem;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// Casters that one task takes: enough to hide its cost, few enough to share out big ones.
 const CASTERS_A_TASK: usize = 256;
@@ -42,7 +43,7 @@ pub(super) fn run_at(cx: &mut CpuCx, level: Level) -> Result<(), Problem> {
     let extents = (0..faces.len()).map(|face| receivers.extent(face)).collect();
     let caster_state = cx.input("caster_state").as_u32();
     let walk = Walk { scene, caster_state, receivers, grids, extents, side, offsets };
-    let exact = walk.all(level);
+    let exact = walk.all(level, cx.progress());
     let wild_blocked = scene.blocked_wild(&walk.receivers, caster_state);
     let mask = mask(&walk.receivers, cx.input("sample_state").as_u32(), &wild_blocked);
     cx.count("exact_pairs", exact);
@@ -52,9 +53,20 @@ pub(super) fn run_at(cx: &mut CpuCx, level: Level) -> Result<(), Problem> {
 
 impl Walk<'_> {
     /// Every caster on every face; the number of pairs that went to the exact predicate.
-    fn all(&self, level: Level) -> u64 {
+    fn all(&self, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) -> u64 {
         let tasks = self.scene.triangles.par_chunks(CASTERS_A_TASK).enumerate();
-        tasks.map(|(task, triangles)| dispatch!(level, simd => self.task(simd, task * CASTERS_A_TASK, triangles))).sum()
+        let (done, total) = (AtomicU64::new(0), tasks.len() as u64);
+        let step = (total / 100).max(1);
+        tasks
+            .map(|(task, triangles)| {
+                let exact = dispatch!(level, simd => self.task(simd, task * CASTERS_A_TASK, triangles));
+                let done = done.fetch_add(1, Relaxed) + 1;
+                if done % step == 0 {
+                    progress(done, total);
+                }
+                exact
+            })
+            .sum()
     }
 
     #[inline(always)]
