@@ -1,7 +1,7 @@
-//! The recipe: pack the view-samples, draw the casters face by face, unpack.
+//! The recipe: pack the view-samples, draw the casters face by face.
 
 use crate::shared::expand::{FAN_WGSL, FanDraw, record_fans};
-use crate::shared::packed::{record_pack, record_unpack};
+use crate::shared::packed::record_pack;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::{Bind, GpuCx, Target};
 use shadowgraph_core::shared::PRELUDE;
@@ -44,10 +44,8 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
             Bind::Read(Target::Port("position")),
             Bind::Read(Target::Port("triangle")),
             Bind::Read(packed.sample),
-            Bind::ReadWrite(packed.blocked),
+            Bind::ReadWrite(Target::Port("mask")),
             Bind::ReadWrite(Target::Counters),
         ]
-    })?;
-    record_unpack(cx, packed);
-    Ok(())
+    })
 }

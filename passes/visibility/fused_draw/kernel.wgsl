@@ -13,9 +13,9 @@ struct Numbers {
 @group(0) @binding(6) var<storage, read> list_entries: array<u32>;
 @group(0) @binding(7) var<storage, read> position: array<f32>;
 @group(0) @binding(8) var<storage, read> own_triangle: array<u32>;
-// In list order: a `Sample`, and whether it is blocked.
+// In list order: a `Sample`.
 @group(0) @binding(9) var<storage, read> packed: array<vec4<u32>>;
-@group(0) @binding(10) var<storage, read_write> blocked: array<atomic<u32>>;
+@group(0) @binding(10) var<storage, read_write> mask: array<atomic<u32>>;
 // Doubtful pairs that were decided, and fragments whose list is too long.
 @group(0) @binding(11) var<storage, read_write> counters: array<atomic<u32>, 2>;
 
@@ -51,7 +51,7 @@ fn fused_draw(vertex: Vertex) {
             let verdict = pyramid_verdict(pyramid, vertex.triangle, Sample(bitcast<vec3<f32>>(words.xyz), words.w));
             if verdict == BLOCKED {
                 // Casters combine by OR.
-                atomicStore(&blocked[entry], 1u);
+                atomicOr(&mask[list_entries[entry]], 1u);
             }
             found = select(NO_CELL, entry, verdict == DOUBTFUL);
             entry += 1u;
@@ -63,7 +63,7 @@ fn fused_draw(vertex: Vertex) {
         let sample = list_entries[found];
         let place = vec3<f32>(position[sample * 3u], position[sample * 3u + 1u], position[sample * 3u + 2u]);
         if pyramid_decide(vertex.triangle, place, own_triangle[sample], light) {
-            atomicStore(&blocked[found], 1u);
+            atomicOr(&mask[sample], 1u);
         }
     }
 }
