@@ -20,10 +20,14 @@ fn face() -> Face {
 }
 
 fn touched(face: &Face, side: usize, reach: Option<[[f32; 2]; 2]>, caster: [[f32; 3]; 3]) -> Vec<[usize; 2]> {
-    let Reach::Cone(cone) = LightSpace::new(face).reach(&caster) else {
+    let grid = Grid::new(face, side, reach);
+    let space = LightSpace::new(face);
+    if grid.is_beside(&space.corners(&caster)) {
+        return Vec::new();
+    }
+    let Reach::Cone(cone) = space.reach(&caster) else {
         return Vec::new();
     };
-    let grid = Grid::new(face, side, reach);
     let Some(footprint) = Footprint::new(&cone, &grid) else {
         return Vec::new();
     };
@@ -61,6 +65,28 @@ fn a_triangle_through_the_plane_of_the_light_is_cut_there() {
     assert!(cells.contains(&[5, 0]) && !cells.contains(&[0, 0]) && !cells.contains(&[7, 3]), "{cells:?}");
 }
 
+#[test]
+fn faces_of_a_cube_end_at_45_degrees_and_a_single_face_does_not() {
+    let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+    let sided = |k: usize, sign: f32| Face {
+        axis_x: axes[(k + 1) % 3],
+        axis_y: sign * axes[(k + 2) % 3],
+        axis_z: sign * axes[k],
+        ..face()
+    };
+    let cube: Vec<Face> = (0..3).flat_map(|k| [sided(k, 1.0), sided(k, -1.0)]).collect();
+    for index in 0..6 {
+        let [[low, high], _] = reach_among(&cube, index).unwrap();
+        assert!((-1.001..=-1.0).contains(&low) && (1.0..1.001).contains(&high));
+    }
+    assert_eq!(reach_among(&cube[..5], 0), None);
+    assert_eq!(reach_among(&[face()], 0), None);
+    // Above the window of the face, so in that of another.
+    let caster = [[0.0, 3.0, 1.0], [0.5, 3.0, 1.0], [0.0, 4.0, 1.0]];
+    assert!(touched(&face(), 4, reach_among(&cube, 4), caster).is_empty());
+    assert!(!touched(&face(), 4, None, caster).is_empty());
+}
+
 /// Directions inside the pyramid, listed as list building lists them, always fall in a touched cell.
 #[test]
 fn listed_directions_inside_the_pyramid_are_touched() {
@@ -71,7 +97,7 @@ fn listed_directions_inside_the_pyramid_are_touched() {
         for caster in &case.triangles {
             for (index, face) in case.faces.iter().enumerate() {
                 let face = Face { far: f32::MAX, ..*face };
-                let here = touched(&face, case.side, None, *caster);
+                let here = touched(&face, case.side, reach_among(&case.faces, index), *caster);
                 (cells, all) = (cells + here.len(), all + case.side * case.side);
                 for _ in 0..10 {
                     let weights = [0; 3].map(|_| 0.5 + 0.5 * numbers.signed());

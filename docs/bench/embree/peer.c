@@ -8,10 +8,10 @@
  * view-sample to the light, RUNS times each; prints one line of JSON with median and extreme milliseconds of build, trace and
  * both, wall and processor time, and how many answers differ from the mask.
  *
- * Rays start at the view-sample with tnear = 0. A hit on the view-sample's own triangle is refused by an intersection filter
- * through the triangle's index, so no offset is needed; filters cost, so by default (PEER_SELF=tnear) the faster way is taken:
- * tnear = 1e-4 and no filter. PEER_SELF=filter selects the filter. Differences from the mask are rounding of Embree's f32
- * arithmetic, contacts within tnear, and nothing else; they are counted, not judged.
+ * Self hits. By default rays start at tnear = 1e-4 of the way to the light, which is the faster way and the peer's best case.
+ * With PEER_SELF=filter they start at 0 and an intersection filter refuses the view-sample's own triangle by its index, as the
+ * mask does. What still differs from the mask is rounding of Embree's f32 arithmetic and, by default, contacts nearer than
+ * tnear; it is counted, not judged.
  */
 #include <embree3/rtcore.h>
 #include <pthread.h>
