@@ -27,6 +27,7 @@ fn scenes() -> Vec<String> {
 /// Graphs that promise exact answers, and how many wrong bits a GPU may have.
 const EXACT: &[&str] = &["hard", "hard_fused"];
 const GPU_SHARE: f64 = 1e-5;
+const DRAWN: &[&[&str]] = &[&["hard_draw"], &["hard", "--swap", "conservative_raster=expanded_draw"]];
 
 /// One trial a scene, graph and backend, and the controls.
 pub fn trials() -> Vec<Trial> {
@@ -41,9 +42,14 @@ pub fn trials() -> Vec<Trial> {
             trials.push(gpu::trial(format!("truth/{graph}/{scene}/wgpu"), run));
         }
     }
-    trials.push(gpu::trial("truth/hard_draw/columns/wgpu".into(), |_| {
-        check("hard_draw", "columns", "96x72", "wgpu", GPU_SHARE)
-    }));
+    // What only the rasteriser does: casters drawn grown, into the table or straight into the masks.
+    for scene in scenes() {
+        for words in DRAWN {
+            let name = scene.clone();
+            let run = move |_: &_| check_words(words, &name, "96x72", "wgpu", GPU_SHARE);
+            trials.push(gpu::trial(format!("truth/{}/{scene}/wgpu", words.join("+")), run));
+        }
+    }
     trials.push(Trial::test("truth/control/a_coarse_shadow_map_is_wrong", || {
         let args = verify_args(&[
             "shadow_map",
@@ -66,7 +72,11 @@ pub fn trials() -> Vec<Trial> {
 }
 
 fn check(graph: &str, scene: &str, size: &str, backend: &str, share: f64) -> Result<(), Failed> {
-    let args = verify_args(&[graph, "--backend", backend, "--size", size, "--quiet"]);
+    check_words(&[graph], scene, size, backend, share)
+}
+
+fn check_words(words: &[&str], scene: &str, size: &str, backend: &str, share: f64) -> Result<(), Failed> {
+    let args = verify_args(&[words, &["--backend", backend, "--size", size, "--quiet"]].concat());
     let row = row(&args, &format!("builtin:{scene}"), size)?;
     let verdict = &row.verdict;
     // One wrong bit on a small picture is more than the share of any large one: one is let pass on a GPU.
