@@ -27,6 +27,7 @@ mod record;
 mod run;
 pub mod segment;
 pub mod session;
+mod settle;
 mod shader;
 pub mod timing;
 pub mod upload;

@@ -8,6 +8,7 @@ use crate::limits::device_limits;
 use crate::pipeline::Pipelines;
 use crate::pool::{Home, Layout, Memory, allocate};
 use crate::recipe::{Recipe, recipes};
+use crate::settle::Settle;
 use shadowgraph_core::plan::{Grown, Plan, Shapes};
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::DeviceLimits;
@@ -52,6 +53,8 @@ pub struct Prepared {
     pub(crate) memories: Vec<Memory>,
     /// Whether nodes and commands are labelled in the encoder: Mesa's llvmpipe crashes on the second label of an encoder.
     pub(crate) labels: bool,
+    /// What follows every draw, on a device that needs it.
+    pub(crate) settle: Option<Settle>,
     /// What to record for each node; none for nodes of another backend.
     pub(crate) nodes: Vec<Option<Vec<Act>>>,
 }
@@ -89,6 +92,7 @@ impl Prepared {
                 layout,
                 memories,
                 labels: device.adapter_info().driver != "llvmpipe",
+                settle: Settle::new(device),
                 nodes: Vec::new(),
             };
             let mut maker = Maker { pipelines, queue, dummies: HashMap::new(), limits };

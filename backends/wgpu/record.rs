@@ -72,6 +72,9 @@ impl Prepared {
                     Act::Draw(raster) => {
                         let stamps = stamps.and_then(|stamps| stamps.render(index, begin, end));
                         draw(encoder, bound, raster, stamps);
+                        if let Some(settle) = &self.settle {
+                            settle.record(encoder);
+                        }
                     }
                 }
             }
