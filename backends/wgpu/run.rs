@@ -9,7 +9,6 @@ use crate::readback::{read_part, read_words, wait};
 use crate::session::{NodeRun, Options, Outcome, Session};
 use crate::timing::{Clock, Stamps};
 use shadowgraph_core::array::Array;
-use shadowgraph_core::pass::Feature;
 use shadowgraph_core::plan::{Grown, Plan, SlotId};
 use shadowgraph_core::problem::Problem;
 use std::ops::Range;
@@ -117,12 +116,6 @@ impl Session {
         Ok((outcome, verdict))
     }
 
-    /// lavapipe 22.3 does not show what fragments write to buffers to compute work later in the same submission, in spite of
-    /// the barrier between: a submission a node does.
-    fn loses_fragment_writes(&self, plan: &Plan) -> bool {
-        self.kind == wgpu::DeviceType::Cpu && plan.required_features().contains(&Feature::FragmentWritableStorage)
-    }
-
     /// Runs one frame and waits for it.
     pub(crate) fn frame(&self, prepared: &Prepared, clock: Clock) -> Result<Times, Problem> {
         let bound = Bound::none(prepared);
@@ -139,11 +132,9 @@ impl Session {
             wait(&self.device, Some(self.queue.submit([commands])))?;
             Ok(start.elapsed().as_secs_f64() * 1e3)
         };
-        if clock == Clock::HostPerNode || self.loses_fragment_writes(&prepared.plan) {
+        if clock == Clock::HostPerNode {
             let nodes = (0..count).map(|node| one(node..node + 1).map(Some)).collect::<Result<Vec<_>, Problem>>()?;
-            let all = nodes.iter().flatten().sum();
-            let is_timed = clock == Clock::HostPerNode;
-            return Ok(Times { all, nodes: if is_timed { nodes } else { vec![None; count] } });
+            return Ok(Times { all: nodes.iter().flatten().sum(), nodes });
         }
         let all = one(0..count)?;
         let nodes = match &stamps {
