@@ -38,6 +38,9 @@ pub const LIGHT_SAMPLES: Port = Port::new(Out, "light_samples", F32, "light_samp
     .space(Space::World)
     .unit("scene units")
     .doc("points on the light; one for a hard shadow");
+/// Weights of light samples.
+pub const LIGHT_WEIGHTS: Port = Port::new(Out, "light_weights", F32, "light_weight", "L 3")
+    .doc("linear RGB share of the light that each sample carries; 1/L in every channel for a uniform white light");
 /// Light words.
 pub const LIGHT: Port =
     Port::new(Out, "light", F32, "light", "8").space(Space::World).doc("centre xyz, radius, linear RGB, zero");
@@ -73,6 +76,7 @@ pub const ALL: &[Port] = &[
     FACES,
     CAMERA,
     LIGHT_SAMPLES,
+    LIGHT_WEIGHTS,
     LIGHT,
     SCENE_BOUNDS,
     IMPORTED_POSITION,
@@ -88,6 +92,7 @@ pub fn scene_arrays(
     image: [usize; 2],
     light: &Light,
     samples: &[[f32; 3]],
+    weights: &[[f32; 3]],
 ) -> Vec<(&'static str, Array)> {
     let count = scene.triangle_count();
     let rows9 = |rows: &[[[f32; 3]; 3]]| Array::f32([count, 3, 3], bytemuck::cast_slice(rows).to_vec());
@@ -104,6 +109,7 @@ pub fn scene_arrays(
         (FACES.name, Array::u32([scene.faces.len()], scene.faces.clone())),
         (CAMERA.name, Array::f32([20], camera_words(camera, image).to_vec())),
         (LIGHT_SAMPLES.name, Array::f32([samples.len(), 3], bytemuck::cast_slice(samples).to_vec())),
+        (LIGHT_WEIGHTS.name, Array::f32([weights.len(), 3], bytemuck::cast_slice(weights).to_vec())),
         (LIGHT.name, Array::f32([8], vec![x, y, z, light.radius, r, g, b, 0.0])),
         (SCENE_BOUNDS.name, Array::f32([2, 3], bytemuck::cast_slice(&bounds).to_vec())),
     ]

@@ -111,7 +111,7 @@ fn main() -> Result<(), Problems> {
 
     let image = [256, 256];
     let mut store = Store::new(&plan);
-    for (name, array) in input::scene_arrays(&scene, &view.camera, image, &view.light, &samples) {
+    for (name, array) in input::scene_arrays(&scene, &view.camera, image, &view.light, &samples, &[[1.0; 3]]) {
         if let Some(slot) = plan.slot(name) {
             store.put(slot, array);
         }

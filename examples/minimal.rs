@@ -79,7 +79,7 @@ fn frame() -> Result<(), Box<dyn Error>> {
     let scene = shadowgraph_scenes::load("builtin:columns")?;
     let view = shadowgraph_scenes::choose_view(&scene, "builtin:columns", None, None)?;
     let samples = [view.light.position];
-    let arrays = input::scene_arrays(&scene, &view.camera, SIZE, &view.light, &samples);
+    let arrays = input::scene_arrays(&scene, &view.camera, SIZE, &view.light, &samples, &[[1.0; 3]]);
     let plan = host_plan(&input::facts(&scene, &samples, false))?;
 
     // What the graph needs is known before the device exists.

@@ -9,6 +9,7 @@ const BUILTIN: &[(&str, &str)] = &[
     ("pcf", include_str!("variants/pcf.ron")),
     ("rays", include_str!("variants/rays.ron")),
     ("truth_hard", include_str!("variants/truth_hard.ron")),
+    ("truth_soft", include_str!("variants/truth_soft.ron")),
 ];
 
 /// Text of the built-in graph `name`.

@@ -105,7 +105,17 @@ fn check() -> Result<(), Failed> {
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let text = stdout(&output);
     assert!(text.contains("wrong.ron:1:") && text.contains("visibility") && text.contains("popcount"), "{text}");
-    succeeded(&program(&["check", "hard", "hard_fused", "hard_draw", "shadow_map", "pcf", "rays", "truth_hard"])?)
+    succeeded(&program(&[
+        "check",
+        "hard",
+        "hard_fused",
+        "hard_draw",
+        "shadow_map",
+        "pcf",
+        "rays",
+        "truth_hard",
+        "truth_soft",
+    ])?)
 }
 
 fn wrong_flags() -> Result<(), Failed> {

@@ -83,6 +83,12 @@ pub struct SceneChoice {
     /// Light position
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub light: Option<String>,
+    /// Radius of the light's sphere, scene units, overriding the view's
+    #[arg(long, value_name = "RADIUS")]
+    pub light_radius: Option<f32>,
+    /// Light samples, well spread through the light; one is its centre
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub light_samples: u32,
     /// Picture size, pixels
     #[arg(long, default_value = "512x512", value_name = "WxH")]
     pub size: String,

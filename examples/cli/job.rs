@@ -8,6 +8,7 @@ use shadowgraph_core::input;
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::scene::{Camera, Light, Scene};
 use shadowgraph_scenes::View;
+use shadowgraph_scenes::lights::{self, LightSamples};
 use std::path::Path;
 
 /// Everything a graph is run on.
@@ -23,6 +24,8 @@ pub struct Job {
     pub light: Light,
     /// Light samples: the light's centre for hard shadows.
     pub samples: Vec<[f32; 3]>,
+    /// The RGB share of the light that each carries.
+    pub weights: Vec<[f32; 3]>,
     /// Picture width and height, pixels.
     pub image: [usize; 2],
     /// What `choose` may ask.
@@ -68,6 +71,14 @@ impl Job {
         if let Some(text) = &choice.light {
             light.position = point("--light", text)?;
         }
+        if let Some(radius) = choice.light_radius {
+            if !(0.0..=1e12).contains(&radius) {
+                return Err(usage_problem("--light-radius is out of range")
+                    .expected("0..=1e12 scene units")
+                    .found(radius.to_string()));
+            }
+            light.radius = radius;
+        }
         check_camera(&camera)?;
         let mut image = size(&choice.size)?;
         let mut imports = Vec::new();
@@ -81,16 +92,18 @@ impl Job {
         } else {
             shadowgraph_scenes::open_all_parts(&mut scene);
         }
-        let samples = vec![light.position];
+        let LightSamples { positions: samples, weights } = lights::samples(&light, choice.light_samples as usize);
         let facts = input::facts(&scene, &samples, !imports.is_empty());
         let mut notes = scene.notes.clone();
         notes.extend(note);
-        Ok(Self { scene_spec: choice.scene.clone(), scene, camera, light, samples, image, facts, notes, imports })
+        let scene_spec = choice.scene.clone();
+        Ok(Self { scene_spec, scene, camera, light, samples, weights, image, facts, notes, imports })
     }
 
     /// Graph inputs by name.
     pub fn inputs(&self) -> Vec<(String, Array)> {
-        let arrays = input::scene_arrays(&self.scene, &self.camera, self.image, &self.light, &self.samples);
+        let arrays =
+            input::scene_arrays(&self.scene, &self.camera, self.image, &self.light, &self.samples, &self.weights);
         let mut arrays: Vec<_> = arrays.into_iter().map(|(name, array)| (name.to_string(), array)).collect();
         arrays.extend(self.imports.iter().cloned());
         arrays

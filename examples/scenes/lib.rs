@@ -8,6 +8,7 @@
 pub mod builtin;
 pub mod export;
 pub mod gltf;
+pub mod lights;
 mod nearest;
 pub mod place;
 mod random;
