@@ -36,11 +36,12 @@ pub struct Row {
 /// # Errors
 /// What is wrong with scene, graph or flags; what a node reports.
 pub fn text(catalogue: &Catalogue, args: &VerifyArgs) -> Result<(String, bool), Problems> {
-    let first = Job::load(&args.scene)?;
+    let scene_choice = args.scene.for_graph(graph_choice::light_samples(&args.graph)?);
+    let first = Job::load(&scene_choice)?;
     let mut jobs = Vec::new();
     if args.all_views {
         for name in shadowgraph_scenes::view_names(&first.scene, &args.scene.scene, args.scene.views.as_deref())? {
-            let mut choice = args.scene.clone();
+            let mut choice = scene_choice.clone();
             choice.view = Some(name.clone());
             let view = shadowgraph_scenes::choose_view(
                 &first.scene,
