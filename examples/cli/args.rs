@@ -102,46 +102,57 @@ impl SceneChoice {
 
 /// The light and its samples. What is not given is the view's.
 #[derive(Clone, Debug, Default, Args)]
-#[command(next_help_heading = "Light")]
 pub struct LightChoice {
     /// The light's centre; the whole light moves there
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    #[arg(long, help_heading = "Light", value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub light: Option<String>,
     /// What shines. A rectangle is the view file's `rect_corners` where it has them
-    #[arg(long, value_enum, value_name = "SHAPE")]
+    #[arg(long, help_heading = "Light", value_enum, value_name = "SHAPE")]
     pub light_shape: Option<ShapeChoice>,
     /// Radius of a sphere or disc; of the disc that a rectangle is as large as; of the ball around any other shape. Scene units
-    #[arg(long, value_name = "RADIUS")]
+    #[arg(long, help_heading = "Light", value_name = "RADIUS")]
     pub light_radius: Option<f32>,
     /// A half axis, from the centre to the edge: twice for a disc or rectangle, three times for an ellipsoid
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, conflicts_with = "light_radius")]
+    #[arg(
+        long,
+        help_heading = "Light",
+        value_name = "X,Y,Z",
+        allow_hyphen_values = true,
+        conflicts_with = "light_radius"
+    )]
     pub light_axis: Vec<String>,
     /// Where a disc or rectangle without axes faces; without it towards the camera's target
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, conflicts_with = "light_axis")]
+    #[arg(
+        long,
+        help_heading = "Light",
+        value_name = "X,Y,Z",
+        allow_hyphen_values = true,
+        conflicts_with = "light_axis"
+    )]
     pub light_direction: Option<String>,
     /// Separate points as light: .npy, 32-bit floats [N, 3], world space. All of them are samples, in their order
-    #[arg(long, value_name = "FILE", conflicts_with = "light_mesh")]
+    #[arg(long, help_heading = "Light", value_name = "FILE", conflicts_with = "light_mesh")]
     pub light_points: Option<PathBuf>,
     /// Linear RGB of each of these points: .npy, 32-bit floats [N, 3]
-    #[arg(long, value_name = "FILE", requires = "light_points")]
+    #[arg(long, help_heading = "Light", value_name = "FILE", requires = "light_points")]
     pub light_point_colors: Option<PathBuf>,
     /// A mesh as light: a glTF 2.0 file or builtin:NAME, world space. Its surface, or with --light-shape volume its inside
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, help_heading = "Light", value_name = "FILE")]
     pub light_mesh: Option<String>,
     /// A PNG on a sphere, disc, rectangle or ellipsoid: what each sample shows
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, help_heading = "Light", value_name = "FILE")]
     pub light_texture: Option<PathBuf>,
     /// Linear RGB of the light
-    #[arg(long, value_name = "R,G,B")]
+    #[arg(long, help_heading = "Light", value_name = "R,G,B")]
     pub light_color: Option<String>,
     /// Light samples, 1 to 4096; one is the light's centre. Without it: all of --light-points, else what the graph says, else 1
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, help_heading = "Light", value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub light_samples: Option<u32>,
     /// How light samples are spread
-    #[arg(long, value_enum, default_value = "hammersley")]
+    #[arg(long, help_heading = "Light", value_enum, default_value = "hammersley")]
     pub generator: GeneratorChoice,
     /// Chooses other samples that are as good. 0 leaves hammersley and lattice as they are, else they are shifted cyclically
-    #[arg(long, default_value_t = 0, value_name = "SEED")]
+    #[arg(long, help_heading = "Light", default_value_t = 0, value_name = "SEED")]
     pub light_seed: u32,
     /// How many light samples the graph says that it is made for; [`crate::graph_choice::light_samples`] knows.
     #[arg(skip)]
@@ -161,11 +172,11 @@ pub enum ShapeChoice {
     Rectangle,
     /// A solid ellipsoid
     Ellipsoid,
-    /// --light-points
+    /// Separate points: those of --light-points
     Points,
-    /// The surface of --light-mesh
+    /// A mesh's surface: that of --light-mesh
     Surface,
-    /// The inside of --light-mesh
+    /// A closed mesh's inside: that of --light-mesh
     Volume,
 }
 
