@@ -6,6 +6,7 @@ mod docs;
 mod gpu;
 mod graphs;
 mod program;
+mod ranges;
 mod suite;
 mod tidy;
 mod truth;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
     trials.extend(twins::controls());
     trials.extend(twins::trials());
     trials.extend(contamination::trials());
+    trials.extend(ranges::trials());
     trials.extend(truth::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()

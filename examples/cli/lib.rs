@@ -10,6 +10,7 @@ pub mod job;
 pub mod npy;
 pub mod outcome;
 pub mod picture;
+pub mod ranges;
 pub mod record;
 pub mod report;
 pub mod verify;
