@@ -2,6 +2,7 @@
 
 mod bench;
 mod contamination;
+mod device_raster;
 mod docs;
 mod gpu;
 mod graphs;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
     trials.extend(twins::trials());
     trials.extend(contamination::trials());
     trials.extend(ranges::trials());
+    trials.extend(device_raster::trials());
     trials.extend(truth::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()

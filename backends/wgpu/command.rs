@@ -1,6 +1,7 @@
 //! A recipe's commands with pipelines, memory and sizes: what is left is to record them.
 
 use crate::group::Group;
+use crate::limits::{check_buffers, storage_buffers};
 use crate::pipeline::{DUMMY_FORMAT, Made, Pipelines};
 use crate::pool::Part;
 use crate::prepare::Prepared;
@@ -90,6 +91,7 @@ impl Maker<'_> {
     }
 
     fn kernel(&self, prepared: &Prepared, node: usize, dispatch: &Dispatch) -> Result<Kernel, Problem> {
+        check_buffers(&prepared.plan.nodes[node], storage_buffers(&dispatch.bind), &self.limits)?;
         let who = who(prepared, node, dispatch.label);
         let parts = classes(prepared, node, &dispatch.bind);
         let classes: Vec<Class> = parts.iter().map(|(class, _)| *class).collect();
@@ -114,6 +116,7 @@ impl Maker<'_> {
     }
 
     fn raster(&mut self, prepared: &Prepared, node: usize, draw: &Draw) -> Result<Raster, Problem> {
+        check_buffers(&prepared.plan.nodes[node], storage_buffers(&draw.bind), &self.limits)?;
         let who = who(prepared, node, draw.label);
         let part = |target: Target| prepared.layout.part(&prepared.plan, node, target).clone();
         let color: Vec<Part> = draw.color.iter().map(|color| part(color.target)).collect();
