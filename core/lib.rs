@@ -9,6 +9,7 @@ pub mod array;
 pub mod cpu;
 pub mod facts;
 pub mod input;
+mod light;
 pub mod metric;
 pub mod param;
 pub mod pass;

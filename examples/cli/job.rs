@@ -69,7 +69,7 @@ impl Job {
             camera.fov_y = degrees.to_radians();
         }
         if let Some(text) = &choice.light {
-            light.position = point("--light", text)?;
+            light = light.moved_to(point("--light", text)?);
         }
         if let Some(radius) = choice.light_radius {
             if !(0.0..=1e12).contains(&radius) {
@@ -77,7 +77,7 @@ impl Job {
                     .expected("0..=1e12 scene units")
                     .found(radius.to_string()));
             }
-            light.radius = radius;
+            light = light.with_radius(radius);
         }
         check_camera(&camera)?;
         let mut image = size(&choice.size)?;

@@ -112,7 +112,7 @@ fn own_light(scene: &Scene, notes: &mut Vec<String>) -> Light {
             let (middle, diagonal) = frame(scene);
             // Up by 0.87 diagonals from the middle, which is above the top: half the height is half a diagonal at most.
             let position = middle + vec3(0.45, 1.0, 0.3).normalize() * diagonal;
-            Light { name: "frame".into(), position: position.to_array(), radius: 0.02 * diagonal, color: [1.0; 3] }
+            Light::sphere("frame", position.to_array(), 0.02 * diagonal)
         }
         [only] => only.clone(),
         [first, ..] => {

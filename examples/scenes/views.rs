@@ -169,12 +169,7 @@ fn check(text: ViewText) -> Result<View, (&'static str, Problem)> {
             return Err(wrong("light.radius", "no such radius", "0 or more", text_light.radius.to_string()));
         }
         rect_corners = text_light.rect_corners;
-        light = Some(Light {
-            name: text.name.clone(),
-            position: text_light.position,
-            radius: text_light.radius,
-            color: [1.0; 3],
-        });
+        light = Some(Light::sphere(text.name.clone(), text_light.position, text_light.radius));
     }
     let camera =
         Camera { name: text.name, eye: text.eye, target: text.target, up: text.up, fov_y: text.fov_y_deg.to_radians() };

@@ -34,7 +34,7 @@ pub fn look_through(soup: &mut Soup, eye: Vec3, target: Vec3, degrees: f32) {
 
 /// The scene's light, white, with the radius that soft shadows use.
 pub fn light_at(soup: &mut Soup, position: Vec3, radius: f32) {
-    soup.lights.push(Light { name: "default".into(), position: position.to_array(), radius, color: [1.0; 3] });
+    soup.lights.push(Light::sphere("default", position.to_array(), radius));
 }
 
 /// The quad a, b, c, d, split along a-c.
