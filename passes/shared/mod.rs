@@ -5,13 +5,18 @@ pub mod bvh;
 pub mod camera;
 pub mod contact;
 pub mod expand;
+pub mod face_light;
 pub mod footprint;
 pub mod hard;
 #[cfg(test)]
 pub mod hard_scenes;
+pub mod hull;
+pub mod influence;
+pub mod light_bound;
 pub mod light_fit;
 pub mod light_frame;
 pub mod packed;
+pub mod pair_walk;
 pub mod predicate;
 pub mod prefetch;
 pub mod pyramid;
@@ -24,4 +29,6 @@ pub mod shadow_lookup;
 pub mod shadow_map;
 pub mod shadow_raster;
 pub mod share;
+#[cfg(test)]
+pub mod soft_scenes;
 pub mod table_fill;
