@@ -9,8 +9,10 @@ pub mod footprint;
 pub mod hard;
 #[cfg(test)]
 pub mod hard_scenes;
+pub mod light_box;
 pub mod light_fit;
 pub mod light_frame;
+pub mod light_sides;
 pub mod packed;
 pub mod predicate;
 pub mod prefetch;
@@ -24,4 +26,8 @@ pub mod shadow_lookup;
 pub mod shadow_map;
 pub mod shadow_raster;
 pub mod share;
+pub mod soft;
+#[cfg(test)]
+pub mod soft_scenes;
 pub mod table_fill;
+pub mod view_planes;
