@@ -1,5 +1,7 @@
 //! Code and WGSL pieces that several passes are made of.
 
+#[cfg(test)]
+pub mod area_light_scenes;
 pub mod atomic_words;
 pub mod bvh;
 pub mod camera;
@@ -27,7 +29,6 @@ pub mod shadow_map;
 pub mod shadow_raster;
 pub mod share;
 pub mod soft;
-#[cfg(test)]
-pub mod soft_scenes;
+pub mod soft_record;
 pub mod table_fill;
 pub mod view_planes;

@@ -16,12 +16,13 @@
 //! Departs from the paper in the supporting plane, which makes casters beyond a light sample harmless.
 
 mod cpu;
+mod gpu;
 #[cfg(test)]
 mod tests;
 
 use super::STAGE;
 use crate::shared::segments::mask_words;
-use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
+use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
 use shadowgraph_core::size::SizeCx;
 
 /// The pass.
@@ -33,23 +34,27 @@ pub static PASS: Pass = Pass {
     ignores: &["light_frame", "list_length", "list_far"],
     params: &[],
     counters: &[
-        Counter { name: "pairs", doc: "(view-sample, caster) pairs that were met", kind: CounterKind::Info },
-        Counter {
-            name: "cut_pairs",
-            doc: "pairs in which the caster may hide a part of the light",
-            kind: CounterKind::Info,
-        },
         Counter {
             name: "exact_bits",
             doc: "(view-sample, caster, light sample) that only exact arithmetic, on a GPU that of two floats, could decide",
             kind: CounterKind::Info,
         },
+        Counter {
+            name: "pairs",
+            doc: "(view-sample, caster) pairs that were met; counted on the CPU",
+            kind: CounterKind::Info,
+        },
+        Counter {
+            name: "cut_pairs",
+            doc: "pairs in which the caster may hide a part of the light; counted on the CPU",
+            kind: CounterKind::Info,
+        },
     ],
     contract: Contract::WrongBits(1e-5),
-    features: &[],
+    features: &[Feature::IndirectExecution],
     size,
     cpu: Some(cpu::run),
-    gpu: None,
+    gpu: Some(gpu::record),
 };
 
 fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
