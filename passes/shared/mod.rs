@@ -1,5 +1,7 @@
 //! Code and WGSL pieces that several passes are made of.
 
+#[cfg(test)]
+pub mod area_light_scenes;
 pub mod atomic_words;
 pub mod bvh;
 pub mod camera;
@@ -13,8 +15,10 @@ pub mod hard_scenes;
 pub mod hull;
 pub mod influence;
 pub mod light_bound;
+pub mod light_box;
 pub mod light_fit;
 pub mod light_frame;
+pub mod light_sides;
 pub mod packed;
 pub mod pair_walk;
 pub mod predicate;
@@ -29,6 +33,9 @@ pub mod shadow_lookup;
 pub mod shadow_map;
 pub mod shadow_raster;
 pub mod share;
+pub mod soft;
+pub mod soft_record;
 #[cfg(test)]
 pub mod soft_scenes;
 pub mod table_fill;
+pub mod view_planes;
