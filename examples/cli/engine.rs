@@ -214,23 +214,24 @@ impl How<'_> {
         }
         let rows = taken.iter().find(|slot| ranges::is_rows(&plan.slots[**slot].port));
         let rows = rows.map_or(0, |slot| store.get(*slot).dim(0));
-        let mut parts: Vec<Vec<Array>> = vec![Vec::new(); kept.len()];
-        for range in ranges::split(rows, count) {
+        let parts: Vec<Vec<usize>> = ranges::split(rows, count).into_iter().map(Iterator::collect).collect();
+        let mut made: Vec<Vec<(Array, &[usize])>> = vec![Vec::new(); kept.len()];
+        for rows in &parts {
             let mut part = Store::new(plan);
             for slot in &taken {
                 let array = store.get(*slot);
                 let is_rows = ranges::is_rows(&plan.slots[*slot].port);
-                part.put(*slot, if is_rows { ranges::slice(array, range.clone()) } else { array.clone() });
+                part.put(*slot, if is_rows { ranges::gather(array, rows) } else { array.clone() });
             }
             for stretch in ranges.stretches(plan, true) {
                 self.stretch(plan, stretch, &mut part, frame)?;
             }
-            for (parts, slot) in parts.iter_mut().zip(&kept) {
-                parts.extend(part.take(*slot));
+            for (made, slot) in made.iter_mut().zip(&kept) {
+                made.extend(part.take(*slot).map(|array| (array, rows.as_slice())));
             }
         }
-        for (parts, slot) in parts.into_iter().zip(kept) {
-            if let Some(array) = ranges::join(&plan.slots[slot].port, parts) {
+        for (made, slot) in made.into_iter().zip(kept) {
+            if let Some(array) = ranges::join(&plan.slots[slot].port, made) {
                 store.put(slot, array);
             }
         }

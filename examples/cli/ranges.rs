@@ -85,27 +85,34 @@ pub fn is_rows(port: &Port) -> bool {
     port.shape.split(' ').next() == Some("P")
 }
 
-/// Some rows of an array.
-pub fn slice(array: &Array, rows: Range<usize>) -> Array {
+/// Some rows of an array, in the order given.
+pub fn gather(array: &Array, rows: &[usize]) -> Array {
     let columns: usize = array.shape()[1..].iter().product();
     let mut shape = array.shape().to_vec();
     shape[0] = rows.len();
-    Array::from_words(array.element(), shape, array.words()[rows.start * columns..rows.end * columns].to_vec())
+    let words = rows.iter().flat_map(|row| &array.words()[row * columns..(row + 1) * columns]).copied().collect();
+    Array::from_words(array.element(), shape, words)
 }
 
-/// The value of a whole run from those of its ranges: rows one after another; a picture's covered pixels over one another. None
-/// for tables by cell, of which every range has its own.
-pub fn join(port: &Port, parts: Vec<Array>) -> Option<Array> {
+/// The value of a whole run from those of its parts and the rows that each had: rows where they came from; a picture's covered
+/// pixels over one another. None for tables by cell, of which every part has its own.
+pub fn join(port: &Port, parts: Vec<(Array, &[usize])>) -> Option<Array> {
     if is_rows(port) {
-        let mut shape = parts.first()?.shape().to_vec();
-        shape[0] = parts.iter().map(|part| part.dim(0)).sum();
-        let words = parts.iter().flat_map(|part| part.words()).copied().collect();
+        let mut shape = parts.first()?.0.shape().to_vec();
+        let columns: usize = shape[1..].iter().product();
+        shape[0] = parts.iter().map(|(_, rows)| rows.len()).sum();
+        let mut words = vec![0; shape[0] * columns];
+        for (part, rows) in parts {
+            for (words_of_row, row) in part.words().chunks_exact(columns.max(1)).zip(rows) {
+                words[row * columns..(row + 1) * columns].copy_from_slice(words_of_row);
+            }
+        }
         return Some(Array::from_words(port.element, shape, words));
     }
     if port.shape != "H W 4" || port.element != Element::F32 {
         return None;
     }
-    let mut parts = parts.into_iter();
+    let mut parts = parts.into_iter().map(|(part, _)| part);
     let mut picture = parts.next()?;
     for part in parts {
         for (pixel, other) in picture.words_mut().chunks_exact_mut(4).zip(part.words().chunks_exact(4)) {
@@ -135,8 +142,9 @@ mod tests {
     fn rows_are_cut_and_joined_again() {
         let port = Port::new(Out, "mask", Element::U32, "mask", "P M");
         let array = Array::u32([5, 2], (0..10).collect());
-        let parts: Vec<Array> = split(5, 3).into_iter().map(|rows| slice(&array, rows)).collect();
-        assert_eq!(parts[1].words(), [2, 3, 4, 5]);
+        let rows: [&[usize]; 3] = [&[3], &[0, 4], &[1, 2]];
+        let parts: Vec<_> = rows.into_iter().map(|rows| (gather(&array, rows), rows)).collect();
+        assert_eq!(parts[1].0.words(), [0, 1, 8, 9]);
         assert_eq!(join(&port, parts), Some(array));
     }
 
@@ -145,9 +153,10 @@ mod tests {
         let port = Port::new(Out, "image", Element::F32, "radiance", "H W 4");
         let picture = |pixels: [[f32; 4]; 2]| Array::f32([1, 2, 4], pixels.concat());
         let (left, right) = ([0.1, 0.2, 0.3, 1.0], [0.4, 0.5, 0.6, 1.0]);
-        let parts = vec![picture([left, [9.0, 9.0, 9.0, 0.0]]), picture([[8.0, 8.0, 8.0, 0.0], right])];
+        let parts: [[[f32; 4]; 2]; 2] = [[left, [9.0, 9.0, 9.0, 0.0]], [[8.0, 8.0, 8.0, 0.0], right]];
+        let parts = parts.map(|part| (picture(part), &[] as &[usize])).to_vec();
         assert_eq!(join(&port, parts), Some(picture([left, right])));
         let table = Port::new(Out, "list_length", Element::U32, "length", "F S S");
-        assert_eq!(join(&table, vec![Array::u32([1, 1, 1], vec![3])]), None);
+        assert_eq!(join(&table, vec![(Array::u32([1, 1, 1], vec![3]), &[] as &[usize])]), None);
     }
 }
