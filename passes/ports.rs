@@ -88,6 +88,10 @@ pub const MASK: Port = Port::new(Out, "mask", U32, "mask", "P M").doc(
 /// Visible fraction.
 pub const VISIBLE: Port = Port::new(Out, "visible", F32, "fraction", "P")
     .doc("visible fraction of the light, 0 umbra to 1 lit; 1 for background");
+/// Visible light of each channel.
+pub const VISIBLE_COLOR: Port = Port::new(Out, "visible_color", F32, "light_share", "P 3")
+    .unit("share of the light's colour")
+    .doc("light of each channel that arrives, 0 umbra; no rows where every channel is `visible` times the light's colour");
 /// Depth seen from the light.
 pub const DEPTH: Port = Port::new(Out, "depth", F32, "light_depth", "F D D")
     .space(Space::Light)

@@ -217,6 +217,9 @@ pub struct RunChoice {
     /// Run so many times after one warm-up and report medians
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
+    /// Ranges of view-samples that run one after another, to bound memory; 0: as few as the device's bindings allow
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    pub ranges: u32,
     /// Print the run's record as JSON on stdout instead of tables
     #[arg(long)]
     pub json: bool,

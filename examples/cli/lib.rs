@@ -11,6 +11,7 @@ pub mod light_choice;
 pub mod npy;
 pub mod outcome;
 pub mod picture;
+pub mod ranges;
 pub mod record;
 pub mod report;
 pub mod texture;

@@ -54,7 +54,7 @@ pub fn text(catalogue: &Catalogue, args: &VerifyArgs) -> Result<(String, bool), 
     } else {
         jobs.push((first.camera.name.clone(), first));
     }
-    let mut machine = Machine::new(args.run.backend)?;
+    let mut machine = Machine::new(args.run.backend)?.in_ranges(args.run.ranges);
     let mut rows = Vec::new();
     for (name, job) in jobs {
         rows.push(verify(catalogue, args, &mut machine, name, &job)?);
