@@ -2,10 +2,12 @@
 
 mod bench;
 mod contamination;
+mod device_raster;
 mod docs;
 mod gpu;
 mod graphs;
 mod program;
+mod ranges;
 mod suite;
 mod tidy;
 mod truth;
@@ -25,6 +27,8 @@ fn main() -> ExitCode {
     trials.extend(twins::controls());
     trials.extend(twins::trials());
     trials.extend(contamination::trials());
+    trials.extend(ranges::trials());
+    trials.extend(device_raster::trials());
     trials.extend(truth::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()

@@ -1,14 +1,14 @@
 //! Scene, camera, light and view-samples as the command line names them, ready as graph inputs.
 
 use crate::args::SceneChoice;
-use crate::{npy, usage_problem};
+use crate::{light_choice, npy, usage_problem};
 use shadowgraph_core::array::Array;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::input;
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::scene::{Camera, Light, Scene};
 use shadowgraph_scenes::View;
-use shadowgraph_scenes::lights::{self, LightSamples};
+use shadowgraph_scenes::lights::{self, LightSamples, Sampling};
 use std::path::Path;
 
 /// Everything a graph is run on.
@@ -22,6 +22,8 @@ pub struct Job {
     pub camera: Camera,
     /// The light.
     pub light: Light,
+    /// How it is sampled.
+    pub sampling: Sampling,
     /// Light samples: the light's centre for hard shadows.
     pub samples: Vec<[f32; 3]>,
     /// The RGB share of the light that each carries.
@@ -53,7 +55,7 @@ impl Job {
     /// # Errors
     /// As [`Job::load`].
     pub fn with_view(mut scene: Scene, view: View, choice: &SceneChoice) -> Result<Self, Problem> {
-        let View { mut camera, mut light, note } = view;
+        let View { mut camera, light, rect_corners, note } = view;
         if let Some(text) = &choice.eye {
             camera.eye = point("--eye", text)?;
         }
@@ -68,17 +70,6 @@ impl Job {
             }
             camera.fov_y = degrees.to_radians();
         }
-        if let Some(text) = &choice.light {
-            light = light.moved_to(point("--light", text)?);
-        }
-        if let Some(radius) = choice.light_radius {
-            if !(0.0..=1e12).contains(&radius) {
-                return Err(usage_problem("--light-radius is out of range")
-                    .expected("0..=1e12 scene units")
-                    .found(radius.to_string()));
-            }
-            light = light.with_radius(radius);
-        }
         check_camera(&camera)?;
         let mut image = size(&choice.size)?;
         let mut imports = Vec::new();
@@ -92,12 +83,22 @@ impl Job {
         } else {
             shadowgraph_scenes::open_all_parts(&mut scene);
         }
-        let LightSamples { positions: samples, weights } = lights::samples(&light, choice.light_samples as usize);
-        let facts = input::facts(&scene, &samples, !imports.is_empty());
         let mut notes = scene.notes.clone();
         notes.extend(note);
+        let mut light = light_choice::light(light, rect_corners, camera.target, &choice.light, &mut notes)?;
+        let sampling = light_choice::sampling(&light, &choice.light)?;
+        let LightSamples { positions: samples, weights, color } = lights::sample(&light, &sampling)?;
+        if sampling.count > 1 && !lights::has_extent(&light) {
+            notes.push(format!(
+                "the light has no extent: all {} light samples coincide (--light-radius gives it one)",
+                sampling.count
+            ));
+        }
+        // A texture's mean is part of the light's colour from here on: weights are shares of it.
+        light.color = color;
+        let facts = input::facts(&scene, &samples, !imports.is_empty());
         let scene_spec = choice.scene.clone();
-        Ok(Self { scene_spec, scene, camera, light, samples, weights, image, facts, notes, imports })
+        Ok(Self { scene_spec, scene, camera, light, sampling, samples, weights, image, facts, notes, imports })
     }
 
     /// Graph inputs by name.
@@ -137,7 +138,11 @@ fn wide(v: [f32; 3]) -> [f64; 3] {
     v.map(f64::from)
 }
 
-fn point(flag: &str, text: &str) -> Result<[f32; 3], Problem> {
+/// Three finite numbers.
+///
+/// # Errors
+/// Anything else.
+pub fn point(flag: &str, text: &str) -> Result<[f32; 3], Problem> {
     let numbers: Vec<f32> =
         text.split(',').filter_map(|part| part.trim().parse().ok()).filter(|x: &f32| x.is_finite()).collect();
     <[f32; 3]>::try_from(numbers)

@@ -3,6 +3,7 @@
 pub mod binning;
 pub mod device;
 pub mod expanded_draw;
+pub mod influence;
 
 use crate::ports;
 use shadowgraph_core::input;
@@ -29,7 +30,7 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&binning::PASS, &expanded_draw::PASS, &device::PASS];
+pub const PASSES: &[&Pass] = &[&binning::PASS, &influence::PASS, &expanded_draw::PASS, &device::PASS];
 
 /// First counter of every pass of this stage.
 const PAIRS: Counter = Counter { name: "pairs", doc: "(cell, caster) pairs", kind: CounterKind::Rows("pair_cell") };

@@ -9,7 +9,7 @@ use super::light_frame::Face;
 use super::pyramid::{Cone, WILD, size};
 
 /// Directions may be off by this much of their length.
-const SLACK: f64 = 2e-6;
+pub(super) const SLACK: f64 = 2e-6;
 
 /// A depth may be off by this much of the distance: five f32 roundings, and the axes.
 const DEPTH_ERROR: f64 = 5e-7;
@@ -26,11 +26,11 @@ pub struct Grid {
     /// Texel borders may be off by this much, texels.
     pad: f64,
     /// Smallest and largest u, then v, at which view-samples may be.
-    reach: [[f64; 2]; 2],
+    pub(super) reach: [[f64; 2]; 2],
     /// Largest |u| or |v| of those, at least one.
-    widest: f64,
+    pub(super) widest: f64,
     /// Largest depth of a view-sample, with room for rounding, scene units.
-    far: f64,
+    pub(super) far: f64,
     /// Factor that covers the rounding of a depth inside the window.
     depth_room: f64,
     /// Factor that covers it in border texels too.
@@ -144,7 +144,7 @@ impl Grid {
 
     /// First and last texel along `axis` that the padded range meets; none when no view-sample is there.
     #[inline(always)]
-    fn range(&self, axis: usize, [low, high]: [f64; 2]) -> Option<[usize; 2]> {
+    pub(super) fn range(&self, axis: usize, [low, high]: [f64; 2]) -> Option<[usize; 2]> {
         if high < self.reach[axis][0] || low > self.reach[axis][1] {
             return None;
         }
@@ -157,7 +157,7 @@ impl Grid {
 
     /// The smallest padded range along `axis` that holds texel `index` and all that was clamped into it.
     #[inline(always)]
-    fn extent(&self, axis: usize, index: usize) -> [f64; 2] {
+    pub(super) fn extent(&self, axis: usize, index: usize) -> [f64; 2] {
         let border = |at: f64| self.low[axis] + at * self.texel[axis];
         let mut ends = [border(index as f64 - self.pad), border(index as f64 + 1.0 + self.pad)];
         if index == 0 {

@@ -9,6 +9,7 @@ use shadowgraph_core::param::Params;
 use shadowgraph_core::pass::Pass;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::shared::{BACKGROUND, FACING_AWAY, KEPT, NO_CELL, NO_TRIANGLE};
+use std::collections::HashSet;
 
 /// Random numbers (splitmix64).
 pub struct Random(pub u64);
@@ -276,9 +277,16 @@ pub fn scan(length: &[u32]) -> Vec<u32> {
 /// # Errors
 /// What the pass reports.
 pub fn run(pass: &'static Pass, inputs: &Inputs) -> Result<(Inputs, Vec<u64>), Problem> {
-    let params = Params::defaults(pass.params);
+    run_with(pass, &Params::defaults(pass.params), inputs)
+}
+
+/// Runs a pass with parameters.
+///
+/// # Errors
+/// What the pass reports.
+pub fn run_with(pass: &'static Pass, params: &Params, inputs: &Inputs) -> Result<(Inputs, Vec<u64>), Problem> {
     let inputs = inputs.iter().map(|(name, array)| (*name, array)).collect();
-    let mut cx = CpuCx::new(pass, &params, [1, 1], inputs, &|_, _| {});
+    let mut cx = CpuCx::new(pass, params, [1, 1], inputs, &|_, _| {});
     match pass.cpu {
         Some(function) => function(&mut cx)?,
         None => unreachable!("{pass:?} has no CPU function"),
@@ -292,4 +300,17 @@ pub fn output<'a>(outputs: &'a Inputs, port: &str) -> &'a Array {
         Some((_, array)) => array,
         None => unreachable!("no output {port}"),
     }
+}
+
+/// (cell, caster) pairs, after a check of slots, lengths and doubles.
+pub fn pairs(outputs: &Inputs) -> HashSet<(u32, u32)> {
+    let [cells, slots, casters] = ["pair_cell", "pair_slot", "pair_caster"].map(|port| output(outputs, port).as_u32());
+    let length = output(outputs, "caster_length").as_u32();
+    assert_eq!(length.iter().sum::<u32>() as usize, cells.len());
+    let places: HashSet<_> = cells.iter().zip(slots).collect();
+    assert_eq!(places.len(), cells.len(), "a place is given twice");
+    assert!(cells.iter().zip(slots).all(|(cell, slot)| *slot < length[*cell as usize]));
+    let pairs: HashSet<_> = cells.iter().copied().zip(casters.iter().copied()).collect();
+    assert_eq!(pairs.len(), cells.len(), "a pair is listed twice");
+    pairs
 }

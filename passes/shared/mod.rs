@@ -1,17 +1,26 @@
 //! Code and WGSL pieces that several passes are made of.
 
+#[cfg(test)]
+pub mod area_light_scenes;
 pub mod atomic_words;
 pub mod bvh;
 pub mod camera;
 pub mod contact;
 pub mod expand;
+pub mod face_light;
 pub mod footprint;
 pub mod hard;
 #[cfg(test)]
 pub mod hard_scenes;
+pub mod hull;
+pub mod influence;
+pub mod light_bound;
+pub mod light_box;
 pub mod light_fit;
 pub mod light_frame;
+pub mod light_sides;
 pub mod packed;
+pub mod pair_walk;
 pub mod predicate;
 pub mod prefetch;
 pub mod pyramid;
@@ -24,4 +33,9 @@ pub mod shadow_lookup;
 pub mod shadow_map;
 pub mod shadow_raster;
 pub mod share;
+pub mod soft;
+pub mod soft_record;
+#[cfg(test)]
+pub mod soft_scenes;
 pub mod table_fill;
+pub mod view_planes;

@@ -120,8 +120,9 @@ impl LightSpace {
         Self { origin: face.origin.to_array(), axes, mirrored: dot(cross(axes[0], axes[1]), axes[2]) < 0.0 }
     }
 
+    /// A world offset in light space.
     #[inline(always)]
-    fn turn(&self, offset: [f64; 3]) -> [f64; 3] {
+    pub fn turn(&self, offset: [f64; 3]) -> [f64; 3] {
         [dot(self.axes[0], offset), dot(self.axes[1], offset), dot(self.axes[2], offset)]
     }
 

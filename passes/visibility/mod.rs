@@ -4,6 +4,7 @@ pub mod bvh_rays;
 pub mod exact;
 pub mod fused;
 pub mod fused_draw;
+pub mod half_planes;
 pub mod planes;
 
 use crate::ports;
@@ -35,4 +36,5 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS];
+pub const PASSES: &[&Pass] =
+    &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS, &half_planes::PASS];

@@ -15,8 +15,8 @@ use shadowgraph_graph::Keep;
 /// # Errors
 /// What is wrong with scene, graph or flags; what a node reports.
 pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems> {
-    let job = Job::load(&args.scene)?;
-    let mut machine = Machine::new(args.run.backend)?;
+    let job = Job::load(&args.scene.for_graph(graph_choice::light_samples(&args.graph)?))?;
+    let mut machine = Machine::new(args.run.backend)?.in_ranges(args.run.ranges);
     let keep = if args.dump.is_some() { Keep::AllLivePorts } else { Keep::OutputsOnly };
     let plan = graph_choice::plan(&args.graph, catalogue, Some(&job.facts), machine.default_backend, keep)?;
     machine.ready_for(&plan)?;

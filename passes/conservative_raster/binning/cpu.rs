@@ -1,61 +1,30 @@
 //! Casters in parallel; each walks its footprint and claims a slot in every cell that matters.
 
-use crate::shared::footprint::{Footprint, Grid, reach_among};
-use crate::shared::light_frame;
-use crate::shared::predicate::Corners;
-use crate::shared::pyramid::{LightSpace, Reach};
-use rayon::prelude::*;
-use shadowgraph_core::array::Array;
+use crate::shared::footprint::{Footprint, Grid};
+use crate::shared::pair_walk::{MOST_PAIRS, Region, put_pairs, sides};
+use crate::shared::pyramid::Reach;
 use shadowgraph_core::cpu::CpuCx;
-use shadowgraph_core::problem::{Kind, Problem};
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
+use shadowgraph_core::problem::Problem;
 
-/// Pairs that are kept at most: with a working copy they take 6 GiB.
-const MOST_PAIRS: u64 = 1 << 28;
-/// Casters that one task takes.
-const CASTERS_A_TASK: usize = 256;
-
-/// Everything a task reads, and what all of them count.
-struct Binning<'a> {
-    triangles: &'a [Corners],
-    caster_state: &'a [u32],
-    full: Full,
-    list_far: &'a [f32],
-    faces: Vec<(LightSpace, Grid)>,
-    caster_length: Vec<AtomicU32>,
-    pairs: AtomicU64,
-    behind: AtomicU64,
-    most_pairs: u64,
+/// A footprint, and the smallest depth of its caster, scene units.
+struct Touched {
+    near: f64,
+    footprint: Footprint,
 }
 
-/// Cells that have view-samples: most have none where six faces share them.
-struct Full {
-    cells: Vec<u32>,
-    /// How many of them lie before each cell.
-    before: Vec<u32>,
-}
-
-impl Full {
-    fn new(list_length: &[u32]) -> Self {
-        let cells: Vec<u32> = (0..list_length.len() as u32).filter(|cell| list_length[*cell as usize] > 0).collect();
-        let mut before = Vec::with_capacity(list_length.len() + 1);
-        let mut count = 0;
-        for length in list_length {
-            before.push(count);
-            count += u32::from(*length > 0);
-        }
-        before.push(count);
-        Self { cells, before }
+impl Region for Touched {
+    fn rows(&self) -> [usize; 2] {
+        self.footprint.rows
     }
-
-    /// Those from cell `first` to cell `last`.
-    fn between(&self, first: usize, last: usize) -> &[u32] {
-        &self.cells[self.before[first] as usize..self.before[last + 1] as usize]
+    #[inline(always)]
+    fn span(&self, grid: &Grid, row: usize) -> Option<[usize; 2]> {
+        self.footprint.span(grid, row)
+    }
+    #[inline(always)]
+    fn is_behind(&self, grid: &Grid, at: [usize; 2], list_far: f32) -> bool {
+        grid.is_behind(self.near, list_far, at)
     }
 }
-
-/// One pair: cell, slot, caster.
-type Pair = [u32; 3];
 
 /// The CPU function.
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
@@ -64,101 +33,20 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
 
 /// With `most_pairs` in place of [`MOST_PAIRS`].
 pub(super) fn run_within(cx: &mut CpuCx, most_pairs: u64) -> Result<(), Problem> {
-    let shape = cx.input("list_length").shape();
-    let list_length = cx.input("list_length").as_u32();
-    let side = cx.input("list_length").dim(2);
-    let faces = light_frame::faces(cx.input("light_frame").as_f32());
-    let binning = Binning {
-        triangles: bytemuck::cast_slice(cx.input("triangles").as_f32()),
-        caster_state: cx.input("caster_state").as_u32(),
-        list_far: cx.input("list_far").as_f32(),
-        faces: (0..faces.len())
-            .map(|index| {
-                let face = &faces[index];
-                (LightSpace::new(face), Grid::new(face, side, reach_among(&faces, index)))
-            })
-            .collect(),
-        full: Full::new(list_length),
-        caster_length: list_length.iter().map(|_| AtomicU32::new(0)).collect(),
-        pairs: AtomicU64::new(0),
-        behind: AtomicU64::new(0),
-        most_pairs,
-    };
-    let valid: Vec<usize> = (0..faces.len()).filter(|face| faces[*face].valid).collect();
-    let tasks = binning.triangles.par_chunks(CASTERS_A_TASK).enumerate();
-    let tasks: Vec<Vec<Pair>> = tasks.map(|(task, _)| binning.task(task * CASTERS_A_TASK, &valid)).collect();
-    let (pairs, behind) = (binning.pairs.into_inner(), binning.behind.into_inner());
-    if pairs > most_pairs {
-        return Err(Problem::new(Kind::Overflow, "more (cell, caster) pairs than memory is kept for")
-            .port("pair_cell")
-            .expected(format!("at most {most_pairs} pairs"))
-            .found(format!("{pairs} pairs"))
-            .remedy("give list_build fewer texels, or use the visibility pass `fused`, which stores no pairs"));
-    }
-    cx.count("pairs", pairs);
-    cx.count("pairs_behind", behind);
-    for (port, column) in [("pair_cell", 0), ("pair_slot", 1), ("pair_caster", 2)] {
-        let mut words = Vec::with_capacity(pairs as usize);
-        words.par_extend(tasks.par_iter().flat_map_iter(|pairs| pairs.iter().map(|pair| pair[column])));
-        cx.put(port, Array::u32([words.len()], words));
-    }
-    let lengths = binning.caster_length.into_iter().map(AtomicU32::into_inner).collect();
-    cx.put("caster_length", Array::u32(shape, lengths));
-    Ok(())
-}
-
-impl Binning<'_> {
-    /// The pairs of the casters from `first` on; once all together are too many they are only counted.
-    fn task(&self, first: usize, valid: &[usize]) -> Vec<Pair> {
-        let mut pairs = Vec::new();
-        let (mut count, mut behind, mut full) = (0, 0, false);
-        let casters = first..(first + CASTERS_A_TASK).min(self.triangles.len());
-        for caster in casters.filter(|caster| self.caster_state[*caster] != 0) {
-            for face in valid {
-                self.caster(*face, caster, &mut behind, |cell| {
-                    count += 1;
-                    // Looking once in a while bounds what is stored beyond the cap.
-                    full = full || (count % 4096 == 1 && self.pairs.load(Relaxed) + count > self.most_pairs);
-                    if !full {
-                        let slot = self.caster_length[cell].fetch_add(1, Relaxed);
-                        pairs.push([cell as u32, slot, caster as u32]);
-                    }
-                });
-            }
-        }
-        self.pairs.fetch_add(count, Relaxed);
-        self.behind.fetch_add(behind, Relaxed);
-        pairs
-    }
-
-    /// Calls `pair` with each cell of `face` that `caster` is to be listed in.
-    fn caster(&self, face: usize, caster: usize, behind: &mut u64, mut pair: impl FnMut(usize)) {
-        let (space, grid) = &self.faces[face];
-        let corners = space.corners(&self.triangles[caster]);
+    let sides = sides(cx);
+    put_pairs(cx, most_pairs, &sides, |index, caster| {
+        let (space, grid) = (&sides[index].space, &sides[index].grid);
+        let corners = space.corners(caster);
         if grid.is_beside(&corners) {
-            return;
+            return None;
         }
-        let (near, footprint) = match space.reach_of(&self.triangles[caster], corners) {
-            Reach::Nothing => return,
-            Reach::Anything => (f64::MIN, Footprint::everything(grid)),
-            Reach::Cone(cone) => match Footprint::new(&cone, grid) {
-                Some(footprint) => (cone.depths()[0], footprint),
-                None => return,
-            },
-        };
-        for row in footprint.rows[0]..=footprint.rows[1] {
-            let Some([first, last]) = footprint.span(grid, row) else {
-                continue;
-            };
-            let start = (face * grid.side + row) * grid.side;
-            for cell in self.full.between(start + first, start + last) {
-                let cell = *cell as usize;
-                if grid.is_behind(near, self.list_far[cell], [cell - start, row]) {
-                    *behind += 1;
-                } else {
-                    pair(cell);
-                }
+        match space.reach_of(caster, corners) {
+            Reach::Nothing => None,
+            Reach::Anything => Some(Touched { near: f64::MIN, footprint: Footprint::everything(grid) }),
+            Reach::Cone(cone) => {
+                let footprint = Footprint::new(&cone, grid)?;
+                Some(Touched { near: cone.depths()[0], footprint })
             }
         }
-    }
+    })
 }

@@ -1,22 +1,8 @@
 use super::PASS;
 use super::cpu::run_within;
-use crate::shared::hard_scenes::{Case, Inputs, output, random, run};
+use crate::shared::hard_scenes::{Case, output, pairs, random, run};
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::param::Params;
-use std::collections::HashSet;
-
-/// (cell, caster) pairs, after a check of slots, lengths and doubles.
-fn pairs(outputs: &Inputs) -> HashSet<(u32, u32)> {
-    let [cells, slots, casters] = ["pair_cell", "pair_slot", "pair_caster"].map(|port| output(outputs, port).as_u32());
-    let length = output(outputs, "caster_length").as_u32();
-    assert_eq!(length.iter().sum::<u32>() as usize, cells.len());
-    let places: HashSet<_> = cells.iter().zip(slots).collect();
-    assert_eq!(places.len(), cells.len(), "a place is given twice");
-    assert!(cells.iter().zip(slots).all(|(cell, slot)| *slot < length[*cell as usize]));
-    let pairs: HashSet<_> = cells.iter().copied().zip(casters.iter().copied()).collect();
-    assert_eq!(pairs.len(), cells.len(), "a pair is listed twice");
-    pairs
-}
 
 #[test]
 fn every_pair_that_matters_is_listed() {
