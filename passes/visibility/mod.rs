@@ -5,6 +5,7 @@ pub mod exact;
 pub mod fused;
 pub mod fused_draw;
 pub mod planes;
+pub mod shafts;
 
 use crate::ports;
 use shadowgraph_core::input;
@@ -35,4 +36,4 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS];
+pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS, &shafts::PASS];
