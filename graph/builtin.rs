@@ -10,6 +10,7 @@ const BUILTIN: &[(&str, &str)] = &[
     ("rays", include_str!("variants/rays.ron")),
     ("truth_hard", include_str!("variants/truth_hard.ron")),
     ("truth_soft", include_str!("variants/truth_soft.ron")),
+    ("soft_shafts", include_str!("variants/soft_shafts.ron")),
 ];
 
 /// Text of the built-in graph `name`.

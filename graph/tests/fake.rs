@@ -56,6 +56,7 @@ visibility/fused cw caster_offset,caster_entries -
 visibility/fused_draw w caster_offset,caster_entries -
 visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries -
 visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries contact_ulps
+visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries -
 light_depth/first_surface cw - size,bias
 shadow_lookup/compare cw - -
 shadow_lookup/pcf cw - taps

@@ -6,6 +6,7 @@ pub mod fused;
 pub mod fused_draw;
 pub mod half_planes;
 pub mod planes;
+pub mod shafts;
 
 use crate::ports;
 use shadowgraph_core::input;
@@ -36,5 +37,12 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] =
-    &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS, &half_planes::PASS];
+pub const PASSES: &[&Pass] = &[
+    &planes::PASS,
+    &fused::PASS,
+    &fused_draw::PASS,
+    &exact::PASS,
+    &bvh_rays::PASS,
+    &half_planes::PASS,
+    &shafts::PASS,
+];
