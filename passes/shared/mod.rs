@@ -8,7 +8,7 @@ pub mod expand;
 pub mod face_light;
 pub mod footprint;
 pub mod hard;
-#[cfg(test)]
+#[cfg(any(test, feature = "random_scenes"))]
 pub mod hard_scenes;
 pub mod hull;
 pub mod influence;
@@ -17,6 +17,7 @@ pub mod light_fit;
 pub mod light_frame;
 pub mod packed;
 pub mod pair_walk;
+pub mod pair_walk_gpu;
 pub mod predicate;
 pub mod prefetch;
 pub mod pyramid;
@@ -29,6 +30,6 @@ pub mod shadow_lookup;
 pub mod shadow_map;
 pub mod shadow_raster;
 pub mod share;
-#[cfg(test)]
+#[cfg(any(test, feature = "random_scenes"))]
 pub mod soft_scenes;
 pub mod table_fill;
