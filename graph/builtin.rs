@@ -8,6 +8,7 @@ const BUILTIN: &[(&str, &str)] = &[
     ("shadow_map", include_str!("variants/shadow_map.ron")),
     ("pcf", include_str!("variants/pcf.ron")),
     ("rays", include_str!("variants/rays.ron")),
+    ("soft", include_str!("variants/soft.ron")),
     ("truth_hard", include_str!("variants/truth_hard.ron")),
     ("truth_soft", include_str!("variants/truth_soft.ron")),
 ];

@@ -49,11 +49,13 @@ list_fill/direct cw - -
 casters/all cw - -
 casters/light_back_facing cw - -
 conservative_raster/binning cw - -
+conservative_raster/influence cw - -
 conservative_raster/device w - -
 caster_fill/direct cw - -
 visibility/planes cw - -
 visibility/fused cw caster_offset,caster_entries -
 visibility/fused_draw w caster_offset,caster_entries -
+visibility/half_planes cw list_length -
 visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries -
 visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries contact_ulps
 light_depth/first_surface cw - size,bias
