@@ -5,6 +5,9 @@ pub mod exact;
 pub mod fused;
 pub mod fused_draw;
 pub mod half_planes;
+pub mod lu;
+pub mod lu_certain;
+pub mod lu_planar;
 pub mod planes;
 
 use crate::ports;
@@ -31,10 +34,21 @@ pub static STAGE: Stage = Stage {
         ports::LIST_ENTRIES.read(),
         ports::OFFSET.read().named("caster_offset"),
         ports::CASTER_ENTRIES.read(),
+        ports::LU.optional(),
+        ports::LU_LAYOUT.optional(),
         ports::MASK,
     ],
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] =
-    &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS, &half_planes::PASS];
+pub const PASSES: &[&Pass] = &[
+    &planes::PASS,
+    &fused::PASS,
+    &fused_draw::PASS,
+    &exact::PASS,
+    &bvh_rays::PASS,
+    &half_planes::PASS,
+    &lu::PASS,
+    &lu_planar::PASS,
+    &lu_certain::PASS,
+];
