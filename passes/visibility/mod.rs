@@ -5,6 +5,9 @@ pub mod exact;
 pub mod fused;
 pub mod fused_draw;
 pub mod half_planes;
+pub mod lu;
+pub mod lu_certain;
+pub mod lu_planar;
 pub mod planes;
 pub mod shafts;
 
@@ -32,6 +35,8 @@ pub static STAGE: Stage = Stage {
         ports::LIST_ENTRIES.read(),
         ports::OFFSET.read().named("caster_offset"),
         ports::CASTER_ENTRIES.read(),
+        ports::LU.optional(),
+        ports::LU_LAYOUT.optional(),
         ports::MASK,
     ],
 };
@@ -45,4 +50,7 @@ pub const PASSES: &[&Pass] = &[
     &bvh_rays::PASS,
     &half_planes::PASS,
     &shafts::PASS,
+    &lu::PASS,
+    &lu_planar::PASS,
+    &lu_certain::PASS,
 ];

@@ -42,6 +42,8 @@ pub static PASS: Pass = Pass {
         "list_entries",
         "caster_offset",
         "caster_entries",
+        "lu",
+        "lu_layout",
     ],
     params: &[],
     counters: &[
