@@ -6,6 +6,7 @@ mod device_raster;
 mod docs;
 mod gpu;
 mod graphs;
+mod pairs;
 mod program;
 mod ranges;
 mod suite;
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
     trials.extend(graphs::trials());
     trials.extend(twins::controls());
     trials.extend(twins::trials());
+    trials.extend(pairs::trials());
     trials.extend(contamination::trials());
     trials.extend(ranges::trials());
     trials.extend(device_raster::trials());
