@@ -40,6 +40,7 @@ pub const LIGHT_SAMPLES: Port = Port::new(Out, "light_samples", F32, "light_samp
     .doc("points on the light; one for a hard shadow");
 /// Weights of light samples.
 pub const LIGHT_WEIGHTS: Port = Port::new(Out, "light_weights", F32, "light_weight", "L 3")
+    .unit("share of the light")
     .doc("linear RGB share of the light that each sample carries; 1/L in every channel for a uniform white light");
 /// Light words.
 pub const LIGHT: Port =
