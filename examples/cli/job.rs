@@ -34,6 +34,8 @@ pub struct Job {
     pub facts: Facts,
     /// Remarks for the record.
     pub notes: Vec<String>,
+    /// Colour of the light before its texture's mean was taken in.
+    given_color: [f32; 3],
     /// Imported view-samples, if any.
     imports: Vec<(String, Array)>,
 }
@@ -95,10 +97,23 @@ impl Job {
             ));
         }
         // A texture's mean is part of the light's colour from here on: weights are shares of it.
-        light.color = color;
+        let given_color = std::mem::replace(&mut light.color, color);
         let facts = input::facts(&scene, &samples, !imports.is_empty());
         let scene_spec = choice.scene.clone();
-        Ok(Self { scene_spec, scene, camera, light, sampling, samples, weights, image, facts, notes, imports })
+        Ok(Self {
+            scene_spec,
+            scene,
+            camera,
+            light,
+            sampling,
+            samples,
+            weights,
+            image,
+            facts,
+            notes,
+            given_color,
+            imports,
+        })
     }
 
     /// Graph inputs by name.
@@ -108,6 +123,19 @@ impl Job {
         let mut arrays: Vec<_> = arrays.into_iter().map(|(name, array)| (name.to_string(), array)).collect();
         arrays.extend(self.imports.iter().cloned());
         arrays
+    }
+
+    /// The same job on each of `sets` disjoint sets of as many light samples, see [`lights::sample_sets`].
+    ///
+    /// # Errors
+    /// The light cannot be sampled so often.
+    pub fn in_sets(&self, sets: usize) -> Result<impl Iterator<Item = Self> + '_, Problem> {
+        let given = Light { color: self.given_color, ..self.light.clone() };
+        let sets = lights::sample_sets(&given, &self.sampling, sets)?;
+        Ok(sets.into_iter().map(|LightSamples { positions: samples, weights, color }| {
+            let light = Light { color, ..self.light.clone() };
+            Self { samples, weights, light, ..self.clone() }
+        }))
     }
 
     /// The same job on view-samples of an earlier run.
