@@ -1,8 +1,8 @@
 //! The truth for every light sample, and the mean over many, against scenes whose soft shadow is known without samples.
 //!
-//! Bounds: Hammersley points of N samples err in a penumbra by about 0.5 N^-0.77 in the mean square where one convex edge crosses the
-//! light, and by at most some times that. The planted fault moves every caster by 5 % of its distance to the light's axis plus
-//! 5 % of its size, which is some hundredths of visibility: a multiple of the bound.
+//! Bounds: 1024 Hammersley points err in the penumbrae of these scenes by 0.0003 (one straight edge along the light's side) to 0.002
+//! (two tilted polygons) in the root of the mean square, and by at most 0.01; bounds are a quarter above. The planted fault moves
+//! every caster sideways by 5 % of its size, which must be seen as four times the bound.
 
 use crate::bench::{render_args, soft_job};
 use glam::{DVec3, Vec3};
@@ -21,12 +21,12 @@ use shadowgraph_scenes::closed_form::{ClosedForm, of_builtin};
 /// Light samples of a run.
 const SAMPLES: usize = 1024;
 /// Root of the mean squared error over view-samples in penumbra that [`SAMPLES`] may have.
-const RMS: f64 = 0.004;
+const RMS: f64 = 0.0025;
 /// The largest error that they may have.
-const MOST: f64 = 0.02;
-/// Scenes, and whether their shadow is soft enough for the planted fault to be seen.
+const MOST: f64 = 0.012;
+/// Scenes that have a closed form.
 const SCENES: &[&str] =
-    &["half-plane", "sphere-over-disc", "polygon", "apart", "nested", "fusion", "fusion?halves=same"];
+    &["half-plane", "sphere-over-disc?facets=24", "polygon", "apart", "nested", "fusion", "fusion?halves=same"];
 
 /// All of them.
 pub fn trials() -> Vec<Trial> {
@@ -89,7 +89,7 @@ fn form(scene: &str) -> Result<ClosedForm, Failed> {
     Ok(of_builtin(scene).map_err(|problem| problem.to_string())?.ok_or("no closed form")?)
 }
 
-/// Every caster 5 % larger and 5 % further along x than it is.
+/// Every caster moved along x by 5 % of its width, of which one unit counts at most.
 fn shifted(form: &ClosedForm) -> ClosedForm {
     let moved = |vertices: &Vec<DVec3>| {
         let size = vertices.iter().map(|v| (v.x - vertices[0].x).abs()).fold(0.0, f64::max).min(1.0);
@@ -107,7 +107,7 @@ fn agrees(scene: &str) -> Result<(), Failed> {
         return Err(text.into());
     }
     let (planted, ..) = errors(&seen, &shifted(&form));
-    if planted < 2.0 * RMS {
+    if planted < 4.0 * RMS {
         return Err(format!("a caster that is moved by 5 % makes an error of {planted} only; {text}").into());
     }
     Ok(())
@@ -138,7 +138,7 @@ fn converges() -> Result<(), Failed> {
     let form = form(scene)?;
     let mut found = Vec::new();
     for (samples, sets) in [(256, 1), (4096, 1), (4096, 16)] {
-        let seen = see(&soft_job(&format!("builtin:{scene}"), "48x36", &samples.to_string()), sets)?;
+        let seen = see(&soft_job(&format!("builtin:{scene}"), "24x18", &samples.to_string()), sets)?;
         found.push(((samples * sets) as f64, errors(&seen, &form).0));
     }
     for pair in found.windows(2) {
