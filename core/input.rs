@@ -147,7 +147,8 @@ pub fn camera_words(camera: &Camera, image: [usize; 2]) -> [f32; 20] {
     words
 }
 
-/// What a graph file may ask of the scene and the light.
+/// What a graph file may ask of the scene and the light. The samples are taken for equal shares of the light; see
+/// [`Facts::with_weights`].
 pub fn facts(scene: &Scene, samples: &[[f32; 3]], view_samples_imported: bool) -> Facts {
     let inside = |point: &[f32; 3]| {
         scene.bounds().is_some_and(|[low, high]| (0..3).all(|k| low[k] <= point[k] && point[k] <= high[k]))
@@ -155,6 +156,7 @@ pub fn facts(scene: &Scene, samples: &[[f32; 3]], view_samples_imported: bool) -
     Facts {
         light_is_point: samples.len() <= 1,
         light_is_planar: is_planar(samples),
+        light_is_textured: false,
         light_inside_scene: samples.iter().any(inside),
         all_casters_closed: scene.flags.iter().all(|flags| flags & flag::CLOSED != 0),
         transparency_present: scene.flags.iter().any(|flags| flags & (flag::ALPHA_MASK | flag::ALPHA_BLEND) != 0),

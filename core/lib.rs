@@ -5,6 +5,7 @@
 //! between nodes is an [`array::Array`]: a shape and 32-bit words, the same bits on both backends.
 #![forbid(unsafe_code)]
 
+pub mod accumulation;
 pub mod array;
 pub mod cpu;
 pub mod facts;

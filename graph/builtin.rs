@@ -8,8 +8,13 @@ const BUILTIN: &[(&str, &str)] = &[
     ("shadow_map", include_str!("variants/shadow_map.ron")),
     ("pcf", include_str!("variants/pcf.ron")),
     ("rays", include_str!("variants/rays.ron")),
+    ("soft", include_str!("variants/soft.ron")),
+    ("soft_lu", include_str!("variants/soft_lu.ron")),
+    ("soft_lu_planar", include_str!("variants/soft_lu_planar.ron")),
+    ("soft_certain", include_str!("variants/soft_certain.ron")),
     ("truth_hard", include_str!("variants/truth_hard.ron")),
     ("truth_soft", include_str!("variants/truth_soft.ron")),
+    ("soft_shafts", include_str!("variants/soft_shafts.ron")),
 ];
 
 /// Text of the built-in graph `name`.

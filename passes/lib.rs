@@ -15,6 +15,7 @@ pub mod light_depth;
 pub mod light_frame;
 pub mod list_build;
 pub mod list_fill;
+pub mod lu_table;
 pub mod present;
 pub mod sample_filter;
 pub mod scan;
@@ -27,7 +28,7 @@ use shadowgraph_core::pass::Catalogue;
 
 /// All passes of this crate, stage by stage in the order of a frame.
 pub fn catalogue() -> Catalogue {
-    let stages: [&[&'static shadowgraph_core::pass::Pass]; 16] = [
+    let stages: [&[&'static shadowgraph_core::pass::Pass]; 17] = [
         view_samples::PASSES,
         sample_filter::PASSES,
         light_frame::PASSES,
@@ -37,6 +38,7 @@ pub fn catalogue() -> Catalogue {
         casters::PASSES,
         conservative_raster::PASSES,
         caster_fill::PASSES,
+        lu_table::PASSES,
         visibility::PASSES,
         light_depth::PASSES,
         shadow_lookup::PASSES,

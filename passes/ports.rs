@@ -103,3 +103,13 @@ pub const CORNER_LIGHT: Port = Port::new(Out, "corner_light", F32, "bent_light",
 /// Picture.
 pub const IMAGE: Port =
     Port::new(Out, "image", F32, "radiance", "H W 4").space(Space::Image).doc("linear RGB and coverage");
+/// Look-up table.
+pub const LU: Port = Port::new(Out, "lu", U32, "lu", "K A B U Q").doc(
+    "by blocks of 128 light samples and bins of a plane's coordinates: bit set: the light sample is behind the plane; Q = 8: surely, \
+     then possibly, over the whole bin",
+);
+/// Which plane falls in which bin.
+pub const LU_LAYOUT: Port = Port::new(Out, "lu_layout", F32, "lu_layout", "16")
+    .space(Space::World)
+    .unit("scene units")
+    .doc("middle of the light, largest distance from it, and for a planar light its axes and normal, each padded to four");

@@ -7,6 +7,7 @@ mod device_raster;
 mod docs;
 mod gpu;
 mod graphs;
+mod pairs;
 mod program;
 mod ranges;
 mod suite;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
     trials.extend(graphs::trials());
     trials.extend(twins::controls());
     trials.extend(twins::trials());
+    trials.extend(pairs::trials());
     trials.extend(contamination::trials());
     trials.extend(ranges::trials());
     trials.extend(device_raster::trials());

@@ -115,6 +115,7 @@ fn check() -> Result<(), Failed> {
         "rays",
         "truth_hard",
         "truth_soft",
+        "soft_shafts",
     ])?)
 }
 

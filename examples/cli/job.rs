@@ -98,7 +98,7 @@ impl Job {
         }
         // A texture's mean is part of the light's colour from here on: weights are shares of it.
         let given_color = std::mem::replace(&mut light.color, color);
-        let facts = input::facts(&scene, &samples, !imports.is_empty());
+        let facts = input::facts(&scene, &samples, !imports.is_empty()).with_weights(&weights);
         let scene_spec = choice.scene.clone();
         Ok(Self {
             scene_spec,

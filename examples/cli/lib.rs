@@ -7,6 +7,7 @@ pub mod converged;
 pub mod dump;
 pub mod engine;
 pub mod graph_choice;
+pub mod jitter;
 pub mod job;
 pub mod light_choice;
 pub mod npy;

@@ -74,6 +74,7 @@ fn linear(value: u8) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
     use std::io::Cursor;
 
     fn encoded(color: png::ColorType, width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
@@ -107,6 +108,36 @@ mod tests {
         huge[16..24].copy_from_slice(&[0, 1, 0, 0, 0, 1, 0, 0]);
         assert!(texture(&huge).is_err());
         assert_eq!(read(Path::new("no/such.png")).unwrap_err().kind, Kind::File);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+        #[test]
+        fn pictures_with_damaged_chunks_end_likewise(
+            damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+            is_sealed: bool,
+        ) {
+            let mut file = encoded(png::ColorType::Rgb, 8, 8, &[90; 8 * 8 * 3]);
+            for (at, value) in damage {
+                let at = at.index(file.len() - 8) + 8;
+                file[at] = value;
+            }
+            if is_sealed {
+                // The header's checksum is right again: what it says is believed.
+                let sum = crc(&file[12..29]);
+                file[29..33].copy_from_slice(&sum.to_be_bytes());
+            }
+            match texture(&file) {
+                Ok(texture) => prop_assert_eq!(texture.width * texture.height, texture.texels.len()),
+                Err(problem) => prop_assert!(problem.place.is_some(), "{}", problem),
+            }
+        }
+    }
+
+    /// The checksum of PNG chunks.
+    fn crc(bytes: &[u8]) -> u32 {
+        let step = |crc: u32, _| if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 };
+        !bytes.iter().fold(u32::MAX, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
     }
 
     #[test]

@@ -22,7 +22,8 @@ list_fill: cell slot list_offset -> list_entries
 casters: triangles triangle_flags light_samples -> caster_state
 conservative_raster: triangles caster_state light_samples light_frame list_length list_far -> pair_cell pair_slot caster_length
 caster_fill: pair_cell pair_slot caster_offset -> caster_entries
-visibility: triangles caster_state light_samples position sample_state cell list_length list_offset list_entries caster_offset caster_entries -> mask
+visibility: triangles caster_state light_samples position sample_state cell list_length list_offset list_entries caster_offset caster_entries lu? lu_layout? -> mask
+lu_table: light_samples -> lu lu_layout
 light_depth: triangles caster_state light_frame -> depth
 shadow_lookup: depth light_frame position sample_state -> mask visible
 combine: mask sample_state -> visible
@@ -49,13 +50,22 @@ list_fill/direct cw - -
 casters/all cw - -
 casters/light_back_facing cw - -
 conservative_raster/binning cw - -
+conservative_raster/influence cw - -
 conservative_raster/device w - -
 caster_fill/direct cw - -
-visibility/planes cw - -
-visibility/fused cw caster_offset,caster_entries -
-visibility/fused_draw w caster_offset,caster_entries -
-visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries -
-visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries contact_ulps
+lu_table/angles_distance cw - size
+lu_table/planar cw - size
+lu_table/certain_uncertain cw - size
+visibility/planes cw lu,lu_layout -
+visibility/lu cw - -
+visibility/lu_planar cw - -
+visibility/lu_certain cw - -
+visibility/fused cw caster_offset,caster_entries,lu,lu_layout -
+visibility/fused_draw w caster_offset,caster_entries,lu,lu_layout -
+visibility/half_planes cw list_length,lu,lu_layout -
+visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout -
+visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout contact_ulps
+visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout -
 light_depth/first_surface cw - size,bias
 shadow_lookup/compare cw - -
 shadow_lookup/pcf cw - taps

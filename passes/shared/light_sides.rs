@@ -37,6 +37,12 @@ impl Sides {
         }
         sides
     }
+
+    /// How many planes cut the light.
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        self.count
+    }
 }
 
 /// Light samples of mask word `word` that are surely inside all planes, and those in doubt.

@@ -35,8 +35,8 @@ struct Numbers {
 const LONG: u32 = 0u;
 const DOUBTS: u32 = 1u;
 const LONG_DOUBTS: u32 = 2u;
-// Casters that one invocation tests, at most: each takes up to 38 loop steps.
-const OWN_CASTERS: u32 = 768u;
+// Casters that one invocation tests, at most: each takes up to 42 loop steps.
+const OWN_CASTERS: u32 = 640u;
 // Mark in the first queue: the item is in the third too.
 const IN_DOUBTS: u32 = 0x80000000u;
 

@@ -11,7 +11,7 @@ const LIGHT_BOX: &[&str] = &[PRELUDE, include_str!("light_box.wgsl")];
 /// Light samples of a block.
 const BLOCK: usize = 128;
 /// Casters that one invocation tests, at most; `OWN_CASTERS` in the kernel.
-const OWN_CASTERS: usize = 768;
+const OWN_CASTERS: usize = 640;
 /// The same where pairs are decided in two-float arithmetic.
 const DECIDED_CASTERS: usize = 12;
 /// Queues of (view-sample, block).

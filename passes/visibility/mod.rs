@@ -5,7 +5,11 @@ pub mod exact;
 pub mod fused;
 pub mod fused_draw;
 pub mod half_planes;
+pub mod lu;
+pub mod lu_certain;
+pub mod lu_planar;
 pub mod planes;
+pub mod shafts;
 
 use crate::ports;
 use shadowgraph_core::input;
@@ -31,10 +35,22 @@ pub static STAGE: Stage = Stage {
         ports::LIST_ENTRIES.read(),
         ports::OFFSET.read().named("caster_offset"),
         ports::CASTER_ENTRIES.read(),
+        ports::LU.optional(),
+        ports::LU_LAYOUT.optional(),
         ports::MASK,
     ],
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] =
-    &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS, &half_planes::PASS];
+pub const PASSES: &[&Pass] = &[
+    &planes::PASS,
+    &fused::PASS,
+    &fused_draw::PASS,
+    &exact::PASS,
+    &bvh_rays::PASS,
+    &half_planes::PASS,
+    &shafts::PASS,
+    &lu::PASS,
+    &lu_planar::PASS,
+    &lu_certain::PASS,
+];

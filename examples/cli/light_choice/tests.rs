@@ -91,10 +91,9 @@ fn meshes_shine_by_surface_or_volume() {
 
 #[test]
 fn points_are_read_and_all_of_them_are_samples() {
-    let folder = std::env::temp_dir().join(format!("shadowgraph-light-points-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, array: &Array| {
-        let path = folder.join(name);
+        let path = folder.path().join(name);
         npy::write(&path, array).unwrap();
         path.display().to_string()
     };
@@ -120,7 +119,6 @@ fn points_are_read_and_all_of_them_are_samples() {
     let light = super::light(Light::point("", [0.0; 3]), None, [0.0; 3], &flags, &mut Vec::new()).unwrap();
     let problem = sampling(&light, &flags).unwrap_err().to_string();
     assert!(problem.contains("--light-samples 4096"), "{problem}");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

@@ -26,11 +26,13 @@ mod lattice;
 mod mesh;
 mod shapes;
 mod surface;
+mod turn;
 mod volume;
 
 pub use check::takes_texture;
 pub use generator::Generator;
 pub use mesh::{points_light, surface_light, volume_light};
+pub use turn::turned;
 
 use drawn::Drawn;
 use generator::Sequence;

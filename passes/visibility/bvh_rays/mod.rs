@@ -39,6 +39,8 @@ pub static PASS: Pass = Pass {
         "list_entries",
         "caster_offset",
         "caster_entries",
+        "lu",
+        "lu_layout",
     ],
     params: &[],
     counters: &[],
