@@ -10,6 +10,7 @@ mod graphs;
 mod pairs;
 mod program;
 mod ranges;
+mod shading;
 mod suite;
 mod tidy;
 mod truth;
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
     trials.extend(device_raster::trials());
     trials.extend(truth::trials());
     trials.extend(closed_form::trials());
+    trials.extend(shading::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

@@ -11,8 +11,9 @@
 use crate::engine::Machine;
 use crate::job::Job;
 use crate::outcome::Outcome;
+use shadowgraph_core::accumulation::{Accumulation, Standing};
 use shadowgraph_core::array::Array;
-use shadowgraph_core::plan::{Plan, SlotId};
+use shadowgraph_core::plan::Plan;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_cpu::Progress;
 
@@ -32,59 +33,42 @@ pub fn converged(
     progress: &Progress,
 ) -> Result<Outcome, Problem> {
     let mut outcome = Outcome::new(plan);
-    let mut means: Vec<Mean> = Vec::new();
+    let mut kept: Vec<Kept> = plan.slots.iter().map(|_| Kept::default()).collect();
     for (index, job) in job.in_sets(sets)?.enumerate() {
         let progress = |node: &str, done, total| progress(&format!("set {} of {sets}: {node}", index + 1), done, total);
         let mut one = machine.run(plan, &job, 1, &progress)?;
-        means.resize_with(plan.slots.len(), Mean::default);
-        for (slot, mean) in means.iter_mut().enumerate() {
-            mean.add(plan, slot, one.values.take(slot), index);
+        for (slot, kept) in kept.iter_mut().enumerate() {
+            kept.add(plan.slots[slot].port.quantity, one.values.take(slot), index);
         }
         outcome.append_times(one);
     }
-    for (slot, mean) in means.into_iter().enumerate() {
-        if let Some(array) = mean.finish(sets) {
+    for (slot, kept) in kept.into_iter().enumerate() {
+        if let Some(array) = kept.value() {
             outcome.values.put(slot, array);
         }
     }
     Ok(outcome)
 }
 
-/// The mean of one value over runs.
+/// What is left of one value after several runs.
 #[derive(Default)]
-struct Mean {
-    /// The first run's; none once another run's differs and there is no mean of it.
-    first: Option<Array>,
-    /// Where the value has a mean.
-    sums: Option<Vec<f64>>,
+struct Kept {
+    mean: Accumulation,
+    /// The first run's, until another run's differs.
+    same: Option<Array>,
 }
 
-impl Mean {
-    fn add(&mut self, plan: &Plan, slot: SlotId, value: Option<Array>, run: usize) {
-        let has_mean = MEANS.contains(&plan.slots[slot].port.quantity);
-        if run == 0 {
-            self.sums = value.as_ref().filter(|_| has_mean).map(|array| widened(array).collect());
-            self.first = value;
-            return;
-        }
-        match (&mut self.sums, value) {
-            (Some(sums), Some(array)) => sums.iter_mut().zip(widened(&array)).for_each(|(sum, value)| *sum += value),
-            (_, value) => self.first = self.first.take().filter(|first| value.as_ref() == Some(first)),
+impl Kept {
+    fn add(&mut self, quantity: &str, value: Option<Array>, run: usize) {
+        match value {
+            // Nothing moves between the runs.
+            Some(array) if MEANS.contains(&quantity) => _ = self.mean.add(Standing(0), &array),
+            value if run == 0 => self.same = value,
+            value => self.same = self.same.take().filter(|same| value.as_ref() == Some(same)),
         }
     }
 
-    fn finish(self, runs: usize) -> Option<Array> {
-        let first = self.first?;
-        Some(match self.sums {
-            Some(sums) => {
-                let mean = sums.iter().map(|sum| (sum / runs as f64) as f32).collect();
-                Array::f32(first.shape().to_vec(), mean)
-            }
-            None => first,
-        })
+    fn value(self) -> Option<Array> {
+        self.mean.mean().or(self.same)
     }
-}
-
-fn widened(array: &Array) -> impl Iterator<Item = f64> + '_ {
-    array.as_f32().iter().map(|value| f64::from(*value))
 }
