@@ -247,6 +247,15 @@ pub struct RenderArgs {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub run: RunChoice,
+    /// Mean over so many disjoint sets of light samples, one run each: 16 sets of 4096 make a converged reference
+    #[arg(
+        long,
+        help_heading = "Light",
+        value_name = "N",
+        conflicts_with = "repeat",
+        value_parser = clap::value_parser!(u32).range(2..=4096)
+    )]
+    pub light_sets: Option<u32>,
     /// Write the picture as DIR/image.png and DIR/image.exr
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

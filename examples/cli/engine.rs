@@ -3,7 +3,7 @@
 use crate::args::BackendChoice;
 use crate::jitter;
 use crate::job::Job;
-use crate::outcome::{NodeRecord, Outcome};
+use crate::outcome::Outcome;
 use crate::ranges::{self, Ranges};
 use crate::record::DeviceRecord;
 use shadowgraph_core::array::Array;
@@ -105,12 +105,7 @@ impl Machine {
     /// A node reports a problem, memory does not suffice, a value overflows its buffer past growing.
     pub fn run(&self, plan: &Plan, job: &Job, repeat: u32, progress: &Progress) -> Result<Outcome, Problem> {
         let inputs = job.inputs();
-        let mut outcome = Outcome {
-            values: Store::new(plan),
-            nodes: node_records(plan),
-            frames_millis: Vec::new(),
-            runs_count: repeat,
-        };
+        let mut outcome = Outcome { runs_count: repeat, ..Outcome::new(plan) };
         let (rounds, warm_ups) = if shadowgraph_cpu::runs_all(plan) { (repeat, u32::from(repeat > 1)) } else { (1, 0) };
         let ranges = Ranges::of(plan, job.sets.len() > 1);
         let count = self.range_count(plan, &ranges, &inputs, job.image)?;
@@ -347,20 +342,6 @@ fn segments(plan: &Plan) -> Vec<Range<usize>> {
         }
     }
     ranges
-}
-
-fn node_records(plan: &Plan) -> Vec<NodeRecord> {
-    let record = |node: &shadowgraph_core::plan::Node| NodeRecord {
-        node: node.id.clone(),
-        stage: node.pass.stage.name,
-        pass: node.pass.name,
-        on: node.on,
-        clock: "",
-        millis: Vec::new(),
-        bytes: 0,
-        counts: Vec::new(),
-    };
-    plan.nodes.iter().map(record).collect()
 }
 
 /// Puts the graph's inputs in their slots.

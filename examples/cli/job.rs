@@ -38,6 +38,8 @@ pub struct Job {
     pub facts: Facts,
     /// Remarks for the record.
     pub notes: Vec<String>,
+    /// Colour of the light before its texture's mean was taken in.
+    given_color: [f32; 3],
     /// Imported view-samples, if any.
     imports: Vec<(String, Array)>,
 }
@@ -102,7 +104,7 @@ impl Job {
             ));
         }
         // A texture's mean is part of the light's colour from here on: weights are shares of it.
-        light.color = base.color;
+        let given_color = std::mem::replace(&mut light.color, base.color);
         let facts = input::facts(&scene, &samples, !imports.is_empty()).with_weights(&base.weights);
         let scene_spec = choice.scene.clone();
         let jitter_side = choice.light.jitter_side as usize;
@@ -119,6 +121,7 @@ impl Job {
             image,
             facts,
             notes,
+            given_color,
             imports,
         })
     }
@@ -142,6 +145,20 @@ impl Job {
         let LightSamples { positions, weights, .. } = &self.sets[set];
         let rows = |rows: &[[f32; 3]]| Array::f32([rows.len(), 3], rows.as_flattened().to_vec());
         [(input::LIGHT_SAMPLES.name, rows(positions)), (input::LIGHT_WEIGHTS.name, rows(weights))]
+    }
+
+    /// The same job on each of `sets` disjoint sets of as many light samples, see [`lights::sample_sets`].
+    ///
+    /// # Errors
+    /// The light cannot be sampled so often.
+    pub fn in_sets(&self, sets: usize) -> Result<impl Iterator<Item = Self> + '_, Problem> {
+        let given = Light { color: self.given_color, ..self.light.clone() };
+        let sets = lights::sample_sets(&given, &self.sampling, sets)?;
+        Ok(sets.into_iter().map(|set| {
+            let light = Light { color: set.color, ..self.light.clone() };
+            let (samples, weights) = (set.positions.clone(), set.weights.clone());
+            Self { samples, weights, sets: vec![set], light, ..self.clone() }
+        }))
     }
 
     /// The same job on view-samples of an earlier run.

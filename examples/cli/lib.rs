@@ -3,6 +3,7 @@
 
 pub mod args;
 pub mod commands;
+pub mod converged;
 pub mod dump;
 pub mod engine;
 pub mod graph_choice;

@@ -102,8 +102,11 @@ pub fn is_rows(port: &Port) -> bool {
     port.shape.split(' ').next() == Some("P")
 }
 
-/// Some rows of an array, in the order given.
+/// Some rows of an array, in the order given; one without rows stays so.
 pub fn gather(array: &Array, rows: &[usize]) -> Array {
+    if array.dim(0) == 0 {
+        return array.clone();
+    }
     let columns: usize = array.shape()[1..].iter().product();
     let mut shape = array.shape().to_vec();
     shape[0] = rows.len();
@@ -115,6 +118,10 @@ pub fn gather(array: &Array, rows: &[usize]) -> Array {
 /// pixels over one another. None for tables by cell, of which every part has its own.
 pub fn join(port: &Port, parts: Vec<(Array, &[usize])>) -> Option<Array> {
     if is_rows(port) {
+        // A value that a pass gives no rows has none in any part.
+        if parts.iter().all(|(part, _)| part.dim(0) == 0) {
+            return parts.into_iter().next().map(|(part, _)| part);
+        }
         let mut shape = parts.first()?.0.shape().to_vec();
         let columns: usize = shape[1..].iter().product();
         shape[0] = parts.iter().map(|(_, rows)| rows.len()).sum();
@@ -169,6 +176,15 @@ mod tests {
         let parts: Vec<_> = rows.into_iter().map(|rows| (gather(&array, rows), rows)).collect();
         assert_eq!(parts[1].0.words(), [0, 1, 8, 9]);
         assert_eq!(join(&port, parts), Some(array));
+    }
+
+    #[test]
+    fn a_value_without_rows_has_none_whole() {
+        let port = Port::new(Out, "visible_color", Element::F32, "light_share", "P 3");
+        let none = Array::f32([0, 3], Vec::new());
+        assert_eq!(gather(&none, &[1, 2]), none);
+        let parts: Vec<(Array, &[usize])> = vec![(none.clone(), &[0, 2]), (none.clone(), &[1])];
+        assert_eq!(join(&port, parts), Some(none));
     }
 
     #[test]
