@@ -87,7 +87,12 @@ fn where_many_edges_meet_hardly_any_light_leaks() {
     // Edges in their bins no longer meet in one line through a shared corner: a light sample may fall between them.
     let r = &mut Random(78);
     let rounds = 200;
-    let lit: u32 = (0..rounds).map(|round| leaks(r, [0.3 * r.signed(), 1.0, 0.3 * r.signed()], 3 + round % 7)).sum();
+    let lit: u32 = (0..rounds)
+        .map(|round| {
+            let centre = [0.3 * r.signed(), 1.0, 0.3 * r.signed()];
+            leaks(r, centre, 3 + round % 7)
+        })
+        .sum();
     println!("{lit} of {}", rounds * 20 * 128);
     assert!(f64::from(lit) < 1e-3 * (rounds * 20 * 128) as f64, "{lit}");
 }
