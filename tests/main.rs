@@ -5,6 +5,7 @@ mod contamination;
 mod docs;
 mod gpu;
 mod graphs;
+mod pairs;
 mod program;
 mod suite;
 mod tidy;
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
     trials.extend(graphs::trials());
     trials.extend(twins::controls());
     trials.extend(twins::trials());
+    trials.extend(pairs::trials());
     trials.extend(contamination::trials());
     trials.extend(truth::trials());
     trials.extend(program::trials());

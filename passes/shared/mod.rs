@@ -10,7 +10,7 @@ pub mod expand;
 pub mod face_light;
 pub mod footprint;
 pub mod hard;
-#[cfg(test)]
+#[cfg(any(test, feature = "random_scenes"))]
 pub mod hard_scenes;
 pub mod hull;
 pub mod influence;
@@ -24,6 +24,7 @@ pub mod lu_fill;
 pub mod lu_record;
 pub mod packed;
 pub mod pair_walk;
+pub mod pair_walk_gpu;
 pub mod predicate;
 pub mod prefetch;
 pub mod pyramid;
@@ -38,7 +39,7 @@ pub mod shadow_raster;
 pub mod share;
 pub mod soft;
 pub mod soft_record;
-#[cfg(test)]
+#[cfg(any(test, feature = "random_scenes"))]
 pub mod soft_scenes;
 pub mod table_fill;
 pub mod view_planes;

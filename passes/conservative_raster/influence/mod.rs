@@ -20,6 +20,7 @@
 //! projection is drawn.
 
 mod cpu;
+mod gpu;
 #[cfg(test)]
 mod tests;
 
@@ -71,5 +72,5 @@ pub static PASS: Pass = Pass {
     features: &[Feature::IndirectExecution],
     size: pairs_size,
     cpu: Some(cpu::run),
-    gpu: None,
+    gpu: Some(gpu::record),
 };

@@ -1,0 +1,254 @@
+// The influence region of a caster on a face, as influence.rs tells it, in f32 with bounds on its rounding. Joined after light_frame,
+// face_light and hull.
+
+// A direction of the hull within this of its size of the plane beside the light says too little.
+const BESIDE: f32 = 1e-2;
+// Tangent to which view-samples reach where no other face takes them.
+const WIDE: f32 = 1e5;
+// Lines in groups of four: two groups of planes, six of sides of the hull.
+const GROUPS: u32 = 8u;
+const PLANE_GROUPS: u32 = 2u;
+
+struct Region {
+    touched: bool,
+    // First and last column and row of the bounding box.
+    first: vec2<u32>,
+    last: vec2<u32>,
+    // Nearest depth of the caster; none where the light reaches deeper.
+    near: f32,
+    // Factors that cover the rounding of a depth inside the window, and in border texels.
+    rooms: vec2<f32>,
+    // One over the largest depth of a view-sample.
+    least_q: f32,
+    // Window u0, v0, extent of a texel.
+    window: vec4<f32>,
+    // Rounding of texel borders, texels.
+    pad: vec2<f32>,
+    // Tangent to which view-samples reach.
+    reach: f32,
+    // u x + v y + one + slack (1 + |x| + |y|) >= depth / far inside, four lines each.
+    groups: u32,
+    u: array<vec4<f32>, GROUPS>,
+    v: array<vec4<f32>, GROUPS>,
+    one: array<vec4<f32>, GROUPS>,
+    depth: array<vec4<f32>, PLANE_GROUPS>,
+    slack: array<vec4<f32>, PLANE_GROUPS>,
+}
+
+// Whether view-samples of the face end at 45 degrees, because other faces look along both ends of both its axes.
+fn face_is_closed(face: u32, faces: u32) -> bool {
+    var found = vec4<bool>(false);
+    for (var other = 0u; other < faces; other++) {
+        let axis = light_axis_z(other);
+        found |= vec4<bool>(
+            all(axis == light_axis_x(face)), all(axis == -light_axis_x(face)),
+            all(axis == light_axis_y(face)), all(axis == -light_axis_y(face)));
+    }
+    return all(found);
+}
+
+fn beyond_side(caster: ptr<function, Caster>, normal: vec3<f32>) -> bool {
+    let slack = SLACK * sum_of_sizes(normal) * (*caster).far;
+    let most = max(dot(normal, (*caster).a), max(dot(normal, (*caster).b), dot(normal, (*caster).c)));
+    return most < -slack && most < -body_most(-normal) - slack;
+}
+
+fn put_line(region: ptr<function, Region>, place: u32, line: vec3<f32>) {
+    (*region).u[place / 4u][place % 4u] = line.x;
+    (*region).v[place / 4u][place % 4u] = line.y;
+    (*region).one[place / 4u][place % 4u] = line.z;
+}
+
+fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: u32, quad: bool) -> Region {
+    var region: Region;
+    region.touched = false;
+    let axis_x = light_axis_x(face);
+    let axis_y = light_axis_y(face);
+    let axis_z = light_axis_z(face);
+    let window = light_window(face);
+    region.reach = select(WIDE, 1.00002, face_is_closed(face, faces));
+    region.window = vec4<f32>(window.xy, window.zw / f32(side));
+    let inner = max(abs(window.xy), abs(window.xy + window.zw));
+    region.pad = light_uv_pad(inner.x, inner.y) / region.window.zw + 2e-3;
+    region.rooms = 1.0 + 1e-6 * (2.0 + vec2<f32>(inner.x + inner.y, 2.0 * region.reach));
+
+    // Beyond one of the face's sides, and further beyond than the light.
+    let wide = region.reach * axis_z;
+    if beyond_side(caster, axis_x + wide) || beyond_side(caster, wide - axis_x) || beyond_side(caster, axis_y + wide)
+        || beyond_side(caster, wide - axis_y) || beyond_side(caster, axis_z) {
+        return region;
+    }
+    let depths = vec3<f32>(dot(axis_z, (*caster).a), dot(axis_z, (*caster).b), dot(axis_z, (*caster).c));
+    let room = ERROR * (*caster).far;
+    let near = min(depths.x, min(depths.y, depths.z)) - room;
+    let face_far = light_depth_range(face).y * region.rooms.y;
+    region.near = select(-1.0, near, near > body_most(axis_z) + room);
+    if region.near > face_far {
+        return region;
+    }
+    region.touched = true;
+    region.least_q = 1.0 / face_far;
+    region.first = vec2<u32>(0u);
+    region.last = vec2<u32>(side - 1u);
+
+    // Planes; what is not there bounds nothing.
+    for (var group = 0u; group < GROUPS; group++) {
+        region.u[group] = vec4<f32>(0.0);
+        region.v[group] = vec4<f32>(0.0);
+        region.one[group] = vec4<f32>(1.0);
+    }
+    for (var k = 0u; k < PLANES; k++) {
+        let plane = (*caster).planes[k];
+        if all(plane.xyz == vec3<f32>(0.0)) {
+            continue;
+        }
+        let n = vec3<f32>(dot(plane.xyz, axis_x), dot(plane.xyz, axis_y), dot(plane.xyz, axis_z));
+        put_line(&region, k, n);
+        region.depth[k / 4u][k % 4u] = plane.w;
+        // The size of the turned normal is up to sqrt(3) of the normal's own, which is one.
+        region.slack[k / 4u][k % 4u] = 1.75 * SLACK + (*caster).blunt[k];
+    }
+    region.groups = PLANE_GROUPS;
+
+    // The hull of the projections onto the plane at the largest depth.
+    let depth = max(face_far, max(depths.x, max(depths.y, depths.z)));
+    let sides = body_sides();
+    var points: Points;
+    var pad = 0.0;
+    for (var corner = 0u; corner < 3u; corner++) {
+        let offset = select(select((*caster).c, (*caster).b, corner == 1u), (*caster).a, corner == 0u);
+        let rays = directions_through(offset);
+        if !rays.any {
+            return region;
+        }
+        let at = vec3<f32>(dot(axis_x, offset), dot(axis_y, offset), dot(axis_z, offset));
+        let left = max(depth - at.z, 0.0) / depth;
+        for (var k = 0u; k < sides; k++) {
+            let ray = vec3<f32>(dot(axis_x, rays.ray[k]), dot(axis_y, rays.ray[k]), dot(axis_z, rays.ray[k]));
+            let size = sum_of_sizes(ray);
+            let stray = rays.stray + ERROR * sum_of_sizes(rays.ray[k]);
+            let z = ray.z - stray;
+            if z <= BESIDE * size {
+                return region;
+            }
+            let point = at.xy / depth + ray.xy * (left / ray.z);
+            points.at[corner * sides + k] = point;
+            let share = left + ERROR * sum_of_sizes(offset) / depth;
+            pad = max(pad, 2.0 * ERROR * (1.0 + abs(point.x) + abs(point.y) + sum_of_sizes(offset) / depth + share * size / z)
+                + share * stray / z * (1.0 + size / z));
+        }
+    }
+    var low = points.at[0];
+    var high = points.at[0];
+    for (var k = 1u; k < 3u * sides; k++) {
+        low = min(low, points.at[k]);
+        high = max(high, points.at[k]);
+    }
+    let largest = max(abs(low), abs(high)) + pad;
+    let slack = SLACK * (1.0 + dot(largest, largest)) + pad;
+    let box_low = (low - slack - window.xy) / region.window.zw - region.pad;
+    let box_high = (high + slack - window.xy) / region.window.zw + region.pad;
+    if any(high + slack < vec2<f32>(-region.reach)) || any(low - slack > vec2<f32>(region.reach)) {
+        region.touched = false;
+        return region;
+    }
+    let end = vec2<f32>(f32(side) - 1.0);
+    region.first = vec2<u32>(clamp(floor(box_low), vec2<f32>(0.0), end));
+    region.last = vec2<u32>(clamp(floor(box_high), vec2<f32>(0.0), end));
+    if quad || any(region.last - region.first < vec2<u32>(2u)) {
+        return region;
+    }
+    var hull = hull_of_three(&points, sides);
+    for (var k = 0u; k < hull.count; k++) {
+        let a = hull.at[k];
+        let b = hull.at[select(k + 1u, 0u, k + 1u == hull.count)];
+        let n = vec2<f32>(a.y - b.y, b.x - a.x);
+        // Measured against all points, so that no direction is wrong.
+        var least = 3e38;
+        for (var point = 0u; point < 3u * sides; point++) {
+            least = min(least, dot(n, points.at[point]));
+        }
+        least -= (abs(n.x) + abs(n.y)) * pad;
+        let size = abs(n.x) + abs(n.y) + abs(least);
+        if abs(n.x) + abs(n.y) > 1e-5 * size {
+            put_line(&region, 4u * PLANE_GROUPS + k, vec3<f32>(n, -least) / size);
+        }
+    }
+    region.groups = PLANE_GROUPS + (hull.count + 3u) / 4u;
+    return region;
+}
+
+// Smallest and largest of a border texel's and an inner texel's coordinates along an axis.
+fn region_extent(region: ptr<function, Region>, axis: u32, index: u32, side: u32) -> vec2<f32> {
+    let low = (*region).window[axis];
+    let texel = (*region).window[axis + 2u];
+    let pad = (*region).pad[axis];
+    let start = low + (f32(index) - pad) * texel;
+    let end = low + (f32(index) + 1.0 + pad) * texel;
+    return vec2<f32>(
+        select(start, min(start, -(*region).reach), index == 0u), select(end, max(end, (*region).reach), index + 1u == side));
+}
+
+// First column touched in a row of the bounding box, and one past the last; equal when none is.
+fn influence_columns(region: ptr<function, Region>, row: u32, side: u32) -> vec2<u32> {
+    let v = region_extent(region, 1u, row, side);
+    var left = -3e38;
+    var right = 3e38;
+    for (var group = 0u; group < (*region).groups; group++) {
+        var slack = vec4<f32>(SLACK);
+        var rest = (*region).one[group];
+        if group < PLANE_GROUPS {
+            slack = (*region).slack[group];
+            rest -= (*region).depth[group] * (*region).least_q;
+        }
+        let lift = (*region).v[group];
+        rest += slack + max(lift * v.x + slack * abs(v.x), lift * v.y + slack * abs(v.y));
+        let u = (*region).u[group];
+        let turned = select(-slack, slack, rest < vec4<f32>(0.0));
+        let is_left = u > 4.0 * slack;
+        let is_right = u < -4.0 * slack;
+        let lefts = select(vec4<f32>(-3e38), -rest / (u + turned), is_left);
+        let rights = select(vec4<f32>(3e38), -rest / (u - turned), is_right);
+        left = max(left, max(max(lefts.x, lefts.y), max(lefts.z, lefts.w)));
+        right = min(right, min(min(rights.x, rights.y), min(rights.z, rights.w)));
+        if any(!is_left & !is_right & (rest + 5.0 * slack * (*region).reach < vec4<f32>(0.0))) {
+            return vec2<u32>(0u);
+        }
+    }
+    let window = (*region).window;
+    let pad = (*region).pad.x;
+    if left > right || right < -(*region).reach || left > (*region).reach {
+        return vec2<u32>(0u);
+    }
+    let end = f32(side) - 1.0;
+    let first = max(u32(clamp(floor((left - window.x) / window.z - pad), 0.0, end)), (*region).first.x);
+    let last = min(u32(clamp(floor((right - window.x) / window.z + pad), 0.0, end)), (*region).last.x);
+    if first > last {
+        return vec2<u32>(0u);
+    }
+    return vec2<u32>(first, last + 1u);
+}
+
+// Whether no view-sample of the cell at column and row `at`, whose largest depth is `far`, can be blocked.
+fn influence_is_behind(region: ptr<function, Region>, far: f32, at: vec2<u32>, side: u32) -> bool {
+    let border = any(at == vec2<u32>(0u)) || any(at + 1u == vec2<u32>(side));
+    if (*region).near > far * select((*region).rooms.x, (*region).rooms.y, border) {
+        return true;
+    }
+    let q = 1.0 / far;
+    // The span has seen to it where the cell is as deep as the face.
+    if q < 1.02 * (*region).least_q {
+        return false;
+    }
+    let u = region_extent(region, 0u, at.x, side);
+    let v = region_extent(region, 1u, at.y, side);
+    var outside = false;
+    for (var group = 0u; group < PLANE_GROUPS; group++) {
+        let slack = (*region).slack[group];
+        let along_u = max((*region).u[group] * u.x + slack * abs(u.x), (*region).u[group] * u.y + slack * abs(u.y));
+        let along_v = max((*region).v[group] * v.x + slack * abs(v.x), (*region).v[group] * v.y + slack * abs(v.y));
+        let value = along_u + along_v + (*region).one[group] + slack;
+        outside = outside || any(value < (*region).depth[group] * q);
+    }
+    return outside;
+}

@@ -1,0 +1,63 @@
+//! The recipe of a walk over casters' regions: small ones by an invocation each, the rest through queues.
+
+use crate::shared::share::{Queue, record_share};
+use shadowgraph_core::record::{Bind, GpuCx, Target};
+use shadowgraph_core::shared::GROUP;
+
+/// The walk in WGSL; see there for what a kernel gives it.
+pub const WGSL: &str = include_str!("pair_walk.wgsl");
+
+/// Texels that one invocation of a caster shared by workgroups walks, at most, or one row.
+const SHARE_TEXELS: usize = 16_384;
+/// Queues of casters.
+const QUEUES: usize = 2;
+
+/// A kernel that makes regions.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel {
+    /// Its WGSL, [`WGSL`] among it.
+    pub pieces: &'static [&'static str],
+    /// Entry points: one invocation a caster, rows, shares.
+    pub entries: [&'static str; 3],
+    /// Labels of these.
+    pub labels: [&'static str; 3],
+    /// Bound at 3: the light as the kernel reads it.
+    pub lights: Target,
+    /// A number for it.
+    pub choice: u32,
+}
+
+/// Records `kernel` over all casters.
+pub fn record_walk(cx: &mut GpuCx, kernel: Kernel) {
+    let triangle_count = cx.dim("triangles", 0);
+    let [face_count, side] = [cx.dim("list_length", 0), cx.dim("list_length", 1)];
+    let queue = cx.scratch("walk_queue", QUEUES * face_count * triangle_count);
+    let queued = cx.scratch("walk_queued", QUEUES);
+    cx.zero(queued);
+    cx.zero(Target::Port("caster_length"));
+    let rows_each = (SHARE_TEXELS / side.max(1)).max(1);
+    let shares = side.div_ceil(GROUP * rows_each).max(1) as u32;
+    let numbers = vec![triangle_count as u32, face_count as u32, side as u32, shares, 0, kernel.choice];
+    let port = Target::Port;
+    let read = [
+        port("triangles"),
+        port("caster_state"),
+        kernel.lights,
+        port("light_frame"),
+        port("list_length"),
+        port("list_far"),
+    ];
+    let outputs = ["pair_cell", "pair_slot", "pair_caster", "caster_length"].map(port);
+    let written = outputs.into_iter().chain([Target::Counters, queue, queued]);
+    let bind: Vec<Bind> = std::iter::once(Bind::Uniform(numbers))
+        .chain(read.map(Bind::Read))
+        .chain(written.map(Bind::ReadWrite))
+        .collect();
+    let [entry, entry_rows, entry_shares] = kernel.entries;
+    let [label, label_rows, label_shares] = kernel.labels;
+    cx.dispatch(label, kernel.pieces, entry, bind.clone(), triangle_count, GROUP);
+    let rows = Queue { queued, word: 0, items: 8, groups: 1 };
+    record_share(cx, label_rows, kernel.pieces, entry_rows, bind.clone(), rows);
+    let shared = Queue { word: 1, items: 1, groups: shares, ..rows };
+    record_share(cx, label_shares, kernel.pieces, entry_shares, bind, shared);
+}
