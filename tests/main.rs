@@ -1,6 +1,7 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
 mod bench;
+mod closed_form;
 mod contamination;
 mod device_raster;
 mod docs;
@@ -9,6 +10,7 @@ mod graphs;
 mod pairs;
 mod program;
 mod ranges;
+mod shading;
 mod suite;
 mod tidy;
 mod truth;
@@ -32,6 +34,8 @@ fn main() -> ExitCode {
     trials.extend(ranges::trials());
     trials.extend(device_raster::trials());
     trials.extend(truth::trials());
+    trials.extend(closed_form::trials());
+    trials.extend(shading::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

@@ -3,9 +3,11 @@
 
 pub mod args;
 pub mod commands;
+pub mod converged;
 pub mod dump;
 pub mod engine;
 pub mod graph_choice;
+pub mod jitter;
 pub mod job;
 pub mod light_choice;
 pub mod npy;

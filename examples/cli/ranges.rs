@@ -1,16 +1,18 @@
-//! View-samples in ranges: everything after the light frame runs over some rows of the view-samples at a time, so that masks of
-//! many light samples fit the bindings of a device and the memory of a machine. Ranges are independent: each makes its own
-//! lists and caster table, and the answers are those of a single run, row by row.
+//! View-samples in parts: everything after the light frame runs over some rows of the view-samples at a time. Parts are
+//! independent: each makes its own lists and caster table, and the answers are those of a single run, row by row. So masks of many
+//! light samples fit the bindings of a device and the memory of a machine; and so pixels may have light samples of their own
+//! ([`crate::jitter`]).
 
 use shadowgraph_core::array::{Array, Element};
+use shadowgraph_core::input::{LIGHT_SAMPLES, LIGHT_WEIGHTS};
 use shadowgraph_core::plan::{Plan, Producer, Shapes, SlotId};
 use shadowgraph_core::port::Port;
 use std::ops::Range;
 
-/// Stages that look at all view-samples at once; they and whatever does not depend on view-samples run once.
-const WHOLE: &[&str] = &["view_samples", "sample_filter", "light_frame"];
+/// Stages that look at all view-samples, and all light samples, at once; they and whatever depends on neither run once.
+const WHOLE: &[&str] = &["view_samples", "sample_filter", "light_frame", "casters"];
 
-/// Which nodes of a plan run once, and which over ranges of view-samples.
+/// Which nodes of a plan run once, and which over parts of the view-samples.
 pub struct Ranges {
     /// For each node of the plan.
     is_ranged: Vec<bool>,
@@ -18,15 +20,15 @@ pub struct Ranges {
 
 impl Ranges {
     /// Of `plan`: ranged is each node outside [`WHOLE`] that reads rows of view-samples, and each that reads what a ranged one
-    /// makes.
-    pub fn of(plan: &Plan) -> Self {
+    /// makes; with several sample sets also each that reads light samples.
+    pub fn of(plan: &Plan, has_sets: bool) -> Self {
         let mut is_ranged = vec![false; plan.nodes.len()];
         for (index, node) in plan.nodes.iter().enumerate() {
             let mut reads = node.inputs.iter().map(|(_, slot)| &plan.slots[*slot]);
             is_ranged[index] = !WHOLE.contains(&node.pass.stage.name)
                 && reads.any(|slot| match slot.producer {
                     Producer::Node(producer) => is_ranged[producer] || is_rows(&slot.port),
-                    Producer::Input => is_rows(&slot.port),
+                    Producer::Input => is_rows(&slot.port) || has_sets && is_of_set(&slot.name),
                 });
         }
         Self { is_ranged }
@@ -80,13 +82,31 @@ pub fn split(rows: usize, count: usize) -> Vec<Range<usize>> {
     (0..count).map(|range| rows * range / count..rows * (range + 1) / count).collect()
 }
 
+/// Whether the graph input is one of those that differ from sample set to sample set.
+pub fn is_of_set(name: &str) -> bool {
+    name == LIGHT_SAMPLES.name || name == LIGHT_WEIGHTS.name
+}
+
+/// Rows by the sample set of their pixel, ascending within each; pixels are row-major in a picture of this width.
+pub fn by_set(pixels: &[u32], width: usize, set_of: impl Fn(usize, usize) -> usize, sets: usize) -> Vec<Vec<usize>> {
+    let mut rows = vec![Vec::new(); sets];
+    for (row, pixel) in pixels.iter().enumerate() {
+        let pixel = *pixel as usize;
+        rows[set_of(pixel % width.max(1), pixel / width.max(1))].push(row);
+    }
+    rows
+}
+
 /// Whether the port has a row for every view-sample.
 pub fn is_rows(port: &Port) -> bool {
     port.shape.split(' ').next() == Some("P")
 }
 
-/// Some rows of an array, in the order given.
+/// Some rows of an array, in the order given; one without rows stays so.
 pub fn gather(array: &Array, rows: &[usize]) -> Array {
+    if array.dim(0) == 0 {
+        return array.clone();
+    }
     let columns: usize = array.shape()[1..].iter().product();
     let mut shape = array.shape().to_vec();
     shape[0] = rows.len();
@@ -98,6 +118,10 @@ pub fn gather(array: &Array, rows: &[usize]) -> Array {
 /// pixels over one another. None for tables by cell, of which every part has its own.
 pub fn join(port: &Port, parts: Vec<(Array, &[usize])>) -> Option<Array> {
     if is_rows(port) {
+        // A value that a pass gives no rows has none in any part.
+        if parts.iter().all(|(part, _)| part.dim(0) == 0) {
+            return parts.into_iter().next().map(|(part, _)| part);
+        }
         let mut shape = parts.first()?.0.shape().to_vec();
         let columns: usize = shape[1..].iter().product();
         shape[0] = parts.iter().map(|(_, rows)| rows.len()).sum();
@@ -139,6 +163,12 @@ mod tests {
     }
 
     #[test]
+    fn rows_go_to_the_set_of_their_pixel() {
+        let rows = by_set(&[0, 1, 2, 3, 4, 5], 3, |column, row| (column + row) % 2, 2);
+        assert_eq!(rows, [vec![0, 2, 4], vec![1, 3, 5]]);
+    }
+
+    #[test]
     fn rows_are_cut_and_joined_again() {
         let port = Port::new(Out, "mask", Element::U32, "mask", "P M");
         let array = Array::u32([5, 2], (0..10).collect());
@@ -146,6 +176,15 @@ mod tests {
         let parts: Vec<_> = rows.into_iter().map(|rows| (gather(&array, rows), rows)).collect();
         assert_eq!(parts[1].0.words(), [0, 1, 8, 9]);
         assert_eq!(join(&port, parts), Some(array));
+    }
+
+    #[test]
+    fn a_value_without_rows_has_none_whole() {
+        let port = Port::new(Out, "visible_color", Element::F32, "light_share", "P 3");
+        let none = Array::f32([0, 3], Vec::new());
+        assert_eq!(gather(&none, &[1, 2]), none);
+        let parts: Vec<(Array, &[usize])> = vec![(none.clone(), &[0, 2]), (none.clone(), &[1])];
+        assert_eq!(join(&port, parts), Some(none));
     }
 
     #[test]

@@ -70,6 +70,7 @@ light_depth/first_surface cw - size,bias
 shadow_lookup/compare cw - -
 shadow_lookup/pcf cw - taps
 combine/popcount cw - -
+combine/weighted cw - -
 bent_light/adjacent_faces cw - -
 shade/bent_lambert cw - -
 blur/box cw - -

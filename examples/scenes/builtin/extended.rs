@@ -89,7 +89,7 @@ fn volumetric(params: &Params) -> Soup {
 fn textured(_: &Params) -> Soup {
     let mut soup = Soup::default();
     things(&mut soup);
-    let [red, blue, dark] = [[2.4, 0.7, 0.2], [0.2, 0.6, 2.2], [0.0; 3]];
+    let [red, blue, dark] = [[2.2, 1.1, 0.3], [0.3, 1.2, 2.4], [0.0; 3]];
     let texels = vec![
         red, red, dark, blue, //
         red, dark, blue, blue, //

@@ -149,7 +149,7 @@ fn polygon(_: &Params) -> Soup {
     };
     let corners = [(0.0, 0.6), (70.0, 0.5), (150.0, 0.55), (210.0, 0.6), (290.0, 0.4)];
     plate(&mut soup, &corners.map(|(degrees, radius)| corner(degrees, radius)), WARM);
-    look_from(&mut soup, vec3(1.8, 2.6, 3.8), vec3(0.0, 0.4, 0.0));
+    look_from(&mut soup, vec3(-3.0, 3.0, 2.6), vec3(0.0, 0.4, 0.0));
     soup
 }
 

@@ -26,12 +26,15 @@ mod lattice;
 mod mesh;
 mod shapes;
 mod surface;
+mod turn;
 mod volume;
 
 pub use check::takes_texture;
 pub use generator::Generator;
 pub use mesh::{points_light, surface_light, volume_light};
+pub use turn::turned;
 
+use drawn::Drawn;
 use generator::Sequence;
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::scene::{Light, LightShape};
@@ -90,7 +93,30 @@ pub fn sample(light: &Light, sampling: &Sampling) -> Result<LightSamples, Proble
     check::light(light)?;
     let sequence = Sequence { generator, seed, stream: 0 };
     let drawn = if count == 1 { vec![drawn::centre(light)] } else { drawn::draw(light, sequence, count)? };
-    let (weights, mean) = emission::weights(&drawn)?;
+    with_weights(light, &drawn)
+}
+
+/// `sets` disjoint sets of `sampling.count` samples: together they are the samples that the generator gives for all of them at once,
+/// dealt out one to each set in turn. Every set has its own weights and colour, so that sets count alike.
+///
+/// # Errors
+/// As [`sample`].
+pub fn sample_sets(light: &Light, sampling: &Sampling, sets: usize) -> Result<Vec<LightSamples>, Problem> {
+    let Sampling { generator, count, seed } = *sampling;
+    let all = count.saturating_mul(sets);
+    if !(1..=MOST_SAMPLES).contains(&count) || !(1..=MOST_SAMPLES).contains(&sets) {
+        return Err(Problem::new(Kind::BadValue, "no such number of light samples and sets")
+            .expected(format!("1 to {MOST_SAMPLES} each"))
+            .found(format!("{sets} sets of {count}")));
+    }
+    check::light(light)?;
+    let drawn = drawn::draw(light, Sequence { generator, seed, stream: 0 }, all)?;
+    let dealt = |set: usize| drawn.iter().skip(set).step_by(sets).copied().collect::<Vec<_>>();
+    (0..sets).map(|set| with_weights(light, &dealt(set))).collect()
+}
+
+fn with_weights(light: &Light, drawn: &[Drawn]) -> Result<LightSamples, Problem> {
+    let (weights, mean) = emission::weights(drawn)?;
     let positions = drawn.iter().map(|drawn| drawn.position).collect();
     let color = [0, 1, 2].map(|channel| (f64::from(light.color[channel]) * mean[channel]) as f32);
     Ok(LightSamples { positions, weights, color })

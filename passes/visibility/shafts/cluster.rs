@@ -119,7 +119,10 @@ impl Worker {
         self.stack.extend((!scene.casters.nodes.is_empty()).then_some(0));
         while let Some(index) = self.stack.pop() {
             let node = &scene.casters.nodes[index as usize];
-            let mut inside = simd.vectorize(#[inline(always)] || boxes_inside(simd, node, &walls));
+            let mut inside = simd.vectorize(
+                #[inline(always)]
+                || boxes_inside(simd, node, &walls),
+            );
             while inside != 0 {
                 let lane = inside.trailing_zeros() as usize;
                 inside &= inside - 1;
@@ -127,7 +130,10 @@ impl Worker {
                     self.stack.push(node.first[lane]);
                 } else {
                     let first = node.first[lane] as usize;
-                    simd.vectorize(#[inline(always)] || self.meet_run(simd, scene, &shaft, first, node.count[lane]));
+                    simd.vectorize(
+                        #[inline(always)]
+                        || self.meet_run(simd, scene, &shaft, first, node.count[lane]),
+                    );
                 }
             }
         }
@@ -158,12 +164,16 @@ impl Worker {
         let sides = [0, 1].map(|k| {
             let (upper, lower) = (shaft.upper[k], shaft.lower[k]);
             let tilted = |slope: f32| [0, 1, 2].map(|i| axes[k][i] - slope * z[i]);
-            [
-                wall(tilted(upper.slope), upper.limit),
-                wall(tilted(lower.slope).map(|x| -x), -lower.limit),
-            ]
+            [wall(tilted(upper.slope), upper.limit), wall(tilted(lower.slope).map(|x| -x), -lower.limit)]
         });
-        [sides[0][0], sides[0][1], sides[1][0], sides[1][1], wall(z, shaft.depth[1]), wall(z.map(|x| -x), -shaft.depth[0])]
+        [
+            sides[0][0],
+            sides[0][1],
+            sides[1][0],
+            sides[1][1],
+            wall(z, shaft.depth[1]),
+            wall(z.map(|x| -x), -shaft.depth[0]),
+        ]
     }
 
     /// Turns a run of casters into the cluster's space and keeps those that the shaft may meet.
@@ -171,9 +181,7 @@ impl Worker {
     fn meet_run<S: Simd>(&mut self, simd: S, scene: &Scene, shaft: &Shaft, first: usize, count: u32) {
         let row = |k: usize| f32x16::from_slice(simd, &scene.casters.corner[k][first..first + LANES]);
         let Frame { origin, axes } = self.frame;
-        let turn = |v: [f32x16<S>; 3]| {
-            axes.map(|axis| v[0].mul_add(axis[0], v[1].mul_add(axis[1], v[2] * axis[2])))
-        };
+        let turn = |v: [f32x16<S>; 3]| axes.map(|axis| v[0].mul_add(axis[0], v[1].mul_add(axis[1], v[2] * axis[2])));
         let a = turn([row(0) - origin[0], row(1) - origin[1], row(2) - origin[2]]);
         let (g, h) = (turn([row(3), row(4), row(5)]), turn([row(6), row(7), row(8)]));
         let size = |v: [f32x16<S>; 3]| v[0].abs() + v[1].abs() + v[2].abs();
@@ -201,10 +209,16 @@ impl Worker {
         self.counts.met += (end - start) as u64;
         let shaft = Shaft::new(self.slanted[views.node], self.boxes[lights.node]);
         if views.len() == 1 && lights.len() == 1 {
-            simd.vectorize(#[inline(always)] || self.leaf(simd, scene, &shaft, views.first, lights.first, start));
+            simd.vectorize(
+                #[inline(always)]
+                || self.leaf(simd, scene, &shaft, views.first, lights.first, start),
+            );
             return;
         }
-        let narrowed = simd.vectorize(#[inline(always)] || self.narrow(simd, &shaft, start));
+        let narrowed = simd.vectorize(
+            #[inline(always)]
+            || self.narrow(simd, &shaft, start),
+        );
         let Some(views_wider) = narrowed else {
             self.counts.covered += 1;
             self.fill(views, lights);
@@ -336,8 +350,8 @@ impl Worker {
                         let row = self.views.index[views + lane] as usize;
                         let own = scene.world.triangles.get(scene.triangle[row] as usize);
                         let caster = &scene.world.triangles[slot.triangle as usize];
-                        let is_blocked = scene.triangle[row] != slot.triangle
-                            && blocks(scene.position[row], own, caster, light);
+                        let is_blocked =
+                            scene.triangle[row] != slot.triangle && blocks(scene.position[row], own, caster, light);
                         blocked[j] |= u16::from(is_blocked) << lane;
                     }
                 }

@@ -52,16 +52,13 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
     let lights: Vec<[f32; 3]> = light_samples.iter().map(|light| world.unit(*light)).collect();
     let share = 1.0 / lights.len() as f32;
     let light = lights.iter().fold([0.0; 3], |sum: [f32; 3], p| [0, 1, 2].map(|k| sum[k] + share * p[k]));
-    let scene = Scene {
-        world,
-        casters: &casters,
-        position,
-        triangle: receivers.triangle,
-        lights: &lights,
-        light,
-    };
+    let scene = Scene { world, casters: &casters, position, triangle: receivers.triangle, lights: &lights, light };
     let [width, height] = receivers.image;
-    let [width, height] = if width * height == position.len() { [width, height] } else { [TILE * TILE, position.len().div_ceil(TILE * TILE)] };
+    let [width, height] = if width * height == position.len() {
+        [width, height]
+    } else {
+        [TILE * TILE, position.len().div_ceil(TILE * TILE)]
+    };
     let tile = if width * height == position.len() && width != TILE * TILE { [TILE, TILE] } else { [TILE * TILE, 1] };
     let across = width.div_ceil(tile[0]);
     let tiles = across * height.div_ceil(tile[1]);

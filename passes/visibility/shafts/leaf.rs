@@ -115,9 +115,8 @@ fn sides<S: Simd, const N: usize>(simd: S, planes: [[f32x16<S>; 4]; N], lights: 
     let (inside, outside) = (f32x16::splat(simd, error), f32x16::splat(simd, -error));
     let [x, y, z] = lights.map(|along| &along[..LANES]);
     for j in 0..LANES {
-        let height = |plane: [f32x16<S>; 4]| {
-            plane[0].mul_add(x[j], plane[1].mul_add(y[j], plane[2].mul_add(z[j], plane[3])))
-        };
+        let height =
+            |plane: [f32x16<S>; 4]| plane[0].mul_add(x[j], plane[1].mul_add(y[j], plane[2].mul_add(z[j], plane[3])));
         let mut lowest = height(planes[0]);
         for plane in &planes[1..] {
             lowest = lowest.min(height(*plane));

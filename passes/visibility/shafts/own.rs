@@ -90,7 +90,13 @@ impl World<'_> {
 
 impl OwnPlanes {
     /// Those of view-samples on `owns`, in order. `light`: corners of the light's box in the cluster's space.
-    pub fn gather(&mut self, world: &World, frame: &Frame, owns: impl Iterator<Item = u32>, light: ([f32; 3], [f32; 3])) {
+    pub fn gather(
+        &mut self,
+        world: &World,
+        frame: &Frame,
+        owns: impl Iterator<Item = u32>,
+        light: ([f32; 3], [f32; 3]),
+    ) {
         self.planes.clear();
         self.of_view.clear();
         self.rows.clear();
@@ -152,7 +158,8 @@ impl OwnPlanes {
         let first = self.rows.len();
         let (mut plain, mut never) = (true, true);
         for plane in &self.planes {
-            let bits = if plane.triangle == id { MINE } else { plane.corners(world, &mut self.known, corners, reach, id) };
+            let bits =
+                if plane.triangle == id { MINE } else { plane.corners(world, &mut self.known, corners, reach, id) };
             self.rows.push(bits);
             plain &= bits & MINE == 0 && bits & ABOVE != 0 && (plane.lit || bits & BELOW != 0);
             never &= bits & MINE != 0 || (plane.lit && bits & ABOVE == 0);
@@ -240,14 +247,7 @@ impl Plane {
     }
 
     /// Which sides of the plane the caster has corners on.
-    fn corners(
-        &self,
-        world: &World,
-        known: &mut HashMap<u64, u8>,
-        corners: &[[f32; 3]; 3],
-        reach: f32,
-        id: u32,
-    ) -> u8 {
+    fn corners(&self, world: &World, known: &mut HashMap<u64, u8>, corners: &[[f32; 3]; 3], reach: f32, id: u32) -> u8 {
         if self.normal != [0.0; 3] {
             let heights = corners.map(|corner| dot(self.normal, corner) + self.constant);
             let room = self.error * (reach + self.size);
@@ -265,7 +265,8 @@ impl Plane {
                 known.clear();
             }
             let own = &world.triangles[self.triangle as usize];
-            let sides = world.triangles[id as usize].map(|corner| if own.contains(&corner) { 0 } else { side(own, corner) });
+            let sides =
+                world.triangles[id as usize].map(|corner| if own.contains(&corner) { 0 } else { side(own, corner) });
             let bits = sides.iter().fold(0, |bits, side| match side {
                 1 => bits | ABOVE,
                 -1 => bits | BELOW,

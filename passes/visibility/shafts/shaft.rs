@@ -80,11 +80,7 @@ pub(super) fn cross_scalar<S: Simd>(a: [f32; 3], b: Vector<S>) -> Vector<S> {
 
 #[inline(always)]
 pub(super) fn cross<S: Simd>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
-    [
-        a[1].mul_sub(b[2], a[2] * b[1]),
-        a[2].mul_sub(b[0], a[0] * b[2]),
-        a[0].mul_sub(b[1], a[1] * b[0]),
-    ]
+    [a[1].mul_sub(b[2], a[2] * b[1]), a[2].mul_sub(b[0], a[0] * b[2]), a[0].mul_sub(b[1], a[1] * b[0])]
 }
 
 #[inline(always)]
@@ -106,7 +102,12 @@ impl Shaft {
         let along_z = views.slope[0].abs() * x + views.slope[1].abs() * y + views.rest;
         let [ux, uy, uz] = light_half;
         let upper = [0, 1].map(|axis| {
-            side([views.high[axis], light.high[axis]], [views.low[2], light.low[2]], [views.high[2], light.high[2]], 1.0)
+            side(
+                [views.high[axis], light.high[axis]],
+                [views.low[2], light.low[2]],
+                [views.high[2], light.high[2]],
+                1.0,
+            )
         });
         let lower = [0, 1].map(|axis| {
             side([views.low[axis], light.low[axis]], [views.low[2], light.low[2]], [views.high[2], light.high[2]], -1.0)

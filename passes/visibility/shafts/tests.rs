@@ -76,7 +76,13 @@ fn on(triangle: &Corners, [mut a, mut b]: [f32; 2]) -> [f32; 3] {
 }
 
 /// A scene compared with the control on every instruction set; blocked bits of view-samples that are kept.
-fn compare(what: &str, triangles: &[Corners], light_samples: &[[f32; 3]], rows: &[([f32; 3], u32)], width: usize) -> u32 {
+fn compare(
+    what: &str,
+    triangles: &[Corners],
+    light_samples: &[[f32; 3]],
+    rows: &[([f32; 3], u32)],
+    width: usize,
+) -> u32 {
     let position: Vec<_> = rows.iter().map(|row| row.0).collect();
     let triangle: Vec<_> = rows.iter().map(|row| row.1).collect();
     let caster_state: Vec<u32> = (0..triangles.len()).map(|id| u32::from(id % 13 != 5)).collect();
@@ -121,9 +127,14 @@ const FLOOR: [Corners; 2] = [
 
 #[test]
 fn a_floor_under_soup_agrees_for_every_number_of_light_samples() {
-    for (seed, count, size, radius) in
-        [(1, 40, 0.5, 0.3), (2, 300, 0.1, 0.5), (3, 12, 1.5, 0.1), (4, 900, 0.05, 0.8), (5, 60, 0.4, 2.0), (6, 8, 3.0, 1.0)]
-    {
+    for (seed, count, size, radius) in [
+        (1, 40, 0.5, 0.3),
+        (2, 300, 0.1, 0.5),
+        (3, 12, 1.5, 0.1),
+        (4, 900, 0.05, 0.8),
+        (5, 60, 0.4, 2.0),
+        (6, 8, 3.0, 1.0),
+    ] {
         for lights in [1, 5, 33, 256] {
             let mut random = Random(seed);
             let mut triangles = random.soup(count, size);

@@ -153,3 +153,33 @@ fn a_needle_in_its_box_is_refused_not_sought_forever() {
     let problem = sample(&light, &Sampling::of_count(4096)).unwrap_err();
     assert!(problem.message.contains("too little of its bounding box"), "{problem}");
 }
+
+#[test]
+fn sets_are_disjoint_and_together_what_the_generator_gives() {
+    let half_axes = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.5]];
+    let light = Light::shaped("test", [0.0, 3.0, 0.0], LightShape::Rectangle { half_axes });
+    let sampling = Sampling { count: 64, ..Sampling::default() };
+    let sets = sample_sets(&light, &sampling, 16).unwrap();
+    let sorted = |positions: Vec<[f32; 3]>| {
+        let mut bits: Vec<[u32; 3]> = positions.into_iter().map(|point| point.map(f32::to_bits)).collect();
+        bits.sort_unstable();
+        bits
+    };
+    let all = sorted(sets.iter().flat_map(|set| set.positions.clone()).collect());
+    assert_eq!(all, sorted(sample(&light, &Sampling::of_count(1024)).unwrap().positions));
+    assert!(all.windows(2).all(|pair| pair[0] != pair[1]), "a point is in two sets");
+    assert!(sets.iter().all(|set| set.positions.len() == 64 && set.weights == vec![[1.0 / 64.0; 3]; 64]));
+    assert_eq!(sample_sets(&light, &sampling, 0).unwrap_err().kind, Kind::BadValue);
+}
+
+#[test]
+fn the_mean_of_the_sets_colours_is_the_light_s() {
+    let half_axes = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let texels = vec![[4.0, 0.0, 1.0], [0.0, 2.0, 1.0]];
+    let light = Light::shaped("test", [0.0; 3], LightShape::Rectangle { half_axes });
+    let light = light.textured(Texture { width: 2, height: 1, texels });
+    let sets = sample_sets(&light, &Sampling::of_count(10), 7).unwrap();
+    let mean = |c: usize| sets.iter().map(|set| set.color[c]).sum::<f32>() / 7.0;
+    let found = [0, 1, 2].map(mean);
+    assert!(found.iter().zip([2.0, 1.0, 1.0]).all(|(found, known)| (found - known).abs() < 1e-6), "{found:?}");
+}
