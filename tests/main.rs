@@ -5,6 +5,7 @@ mod closed_form;
 mod contamination;
 mod device_raster;
 mod docs;
+mod frames;
 mod gpu;
 mod graphs;
 mod pairs;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
     trials.extend(truth::trials());
     trials.extend(closed_form::trials());
     trials.extend(shading::trials());
+    trials.extend(frames::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

@@ -256,6 +256,15 @@ pub struct RenderArgs {
         value_parser = clap::value_parser!(u32).range(2..=4096)
     )]
     pub light_sets: Option<u32>,
+    /// Mean over so many frames, each with light samples of its own (seeds from --light-seed on), as a host shows it while nothing moves
+    #[arg(
+        long,
+        help_heading = "Light",
+        value_name = "N",
+        conflicts_with_all = ["repeat", "light_sets"],
+        value_parser = clap::value_parser!(u32).range(1..=10_000)
+    )]
+    pub frames: Option<u32>,
     /// Write the picture as DIR/image.png and DIR/image.exr
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

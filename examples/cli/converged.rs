@@ -18,7 +18,7 @@ use shadowgraph_core::problem::Problem;
 use shadowgraph_cpu::Progress;
 
 /// Quantities that have a mean over light samples.
-const MEANS: &[&str] = &["radiance", "fraction", "light_share"];
+pub(crate) const MEANS: &[&str] = &["radiance", "fraction", "light_share"];
 
 /// Runs `plan`, made for `job`, on `sets` disjoint sets of as many light samples as the job has. Times are those of the runs, one
 /// a set.

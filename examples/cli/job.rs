@@ -1,7 +1,9 @@
 //! Scene, camera, light and view-samples as the command line names them, ready as graph inputs.
 
 use crate::args::SceneChoice;
+use crate::jitter::Jitter;
 use crate::{jitter, light_choice, npy, usage_problem};
+use shadowgraph_core::accumulation::Standing;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::input;
@@ -30,6 +32,8 @@ pub struct Job {
     pub weights: Vec<[f32; 3]>,
     /// Sample sets: one, or one for each pixel of the jitter pattern.
     pub sets: Vec<LightSamples>,
+    /// Where these sets come from.
+    pub jitter: Jitter,
     /// Pixels a side of the jitter pattern.
     pub jitter_side: usize,
     /// Picture width and height, pixels.
@@ -117,6 +121,7 @@ impl Job {
             samples,
             weights,
             sets,
+            jitter: choice.light.jitter,
             jitter_side,
             image,
             facts,
@@ -152,13 +157,40 @@ impl Job {
     /// # Errors
     /// The light cannot be sampled so often.
     pub fn in_sets(&self, sets: usize) -> Result<impl Iterator<Item = Self> + '_, Problem> {
-        let given = Light { color: self.given_color, ..self.light.clone() };
+        let given = self.given_light();
         let sets = lights::sample_sets(&given, &self.sampling, sets)?;
         Ok(sets.into_iter().map(|set| {
             let light = Light { color: set.color, ..self.light.clone() };
             let (samples, weights) = (set.positions.clone(), set.weights.clone());
             Self { samples, weights, sets: vec![set], light, ..self.clone() }
         }))
+    }
+
+    /// The same job with the light samples of another frame: seeds of its own. Frame 0 is the job itself.
+    ///
+    /// # Errors
+    /// The light cannot be sampled with another seed.
+    pub fn in_frame(&self, frame: u32) -> Result<Self, Problem> {
+        let given = self.given_light();
+        // A pattern of seeds takes as many of them as it has sets.
+        let seed = self.sampling.seed.wrapping_add(frame.wrapping_mul(self.sets.len() as u32));
+        let sampling = Sampling { seed, ..self.sampling };
+        let base = lights::sample(&given, &sampling)?;
+        let sets = jitter::sets(self.jitter, self.jitter_side as u32, &given, &sampling, &base)?;
+        let samples = sets.iter().flat_map(|set| &set.positions).copied().collect();
+        let weights = sets.iter().flat_map(|set| &set.weights).copied().collect();
+        let light = Light { color: base.color, ..given };
+        Ok(Self { samples, weights, sets, sampling, light, ..self.clone() })
+    }
+
+    /// What the means of frames are of: everything but the light samples.
+    pub fn standing(&self) -> Standing {
+        Standing::of(&self.scene, &self.camera, self.image, &self.given_light())
+    }
+
+    /// The light in its own colour.
+    fn given_light(&self) -> Light {
+        Light { color: self.given_color, ..self.light.clone() }
     }
 
     /// The same job on view-samples of an earlier run.

@@ -6,6 +6,7 @@ pub mod commands;
 pub mod converged;
 pub mod dump;
 pub mod engine;
+pub mod frames;
 pub mod graph_choice;
 pub mod jitter;
 pub mod job;

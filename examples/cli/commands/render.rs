@@ -3,6 +3,7 @@
 use crate::args::RenderArgs;
 use crate::converged::converged;
 use crate::engine::Machine;
+use crate::frames::Frames;
 use crate::job::Job;
 use crate::record::RunRecord;
 use crate::report::{Bar, run_text};
@@ -23,9 +24,19 @@ pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems
     machine.ready_for(&plan)?;
     let bar = Bar::new(args.run.quiet);
     let progress = |node: &str, done, total| bar.set(node, done, total);
-    let outcome = match args.light_sets {
-        None => machine.run(&plan, &job, args.run.repeat, &progress)?,
-        Some(sets) => {
+    let outcome = match (args.light_sets, args.frames) {
+        (None, None) => machine.run(&plan, &job, args.run.repeat, &progress)?,
+        (None, Some(frames)) => {
+            let mut accumulated = Frames::new(&plan);
+            for frame in 0..frames {
+                let named = |node: &str, done, total| progress(&format!("frame {}: {node}", frame + 1), done, total);
+                accumulated.add(machine.run(&plan, &job.in_frame(frame)?, 1, &named)?, job.standing());
+            }
+            let samples = job.samples.len();
+            job.notes.push(format!("a mean over {frames} frames, each with {samples} light samples of its own"));
+            accumulated.finish()
+        }
+        (Some(sets), _) => {
             let outcome = converged(&machine, &plan, &job, sets as usize, &progress)?;
             job.notes.push(format!(
                 "a mean over {sets} disjoint sets of {} light samples, one run each: {} in all",

@@ -5,7 +5,7 @@
 //!
 //! | Generator | Points | Seed |
 //! |---|---|---|
-//! | [`Hammersley`](Generator::Hammersley) | i/N beside mirrored digits in bases 2 and 3 | 0: as they are; else shifted cyclically (Cranley and Patterson 1976), consecutive seeds far apart |
+//! | [`Hammersley`](Generator::Hammersley) | i/N beside mirrored digits in bases 2 and 3 | 0: as they are; else shifted cyclically (Cranley and Patterson 1976) |
 //! | [`Jittered`](Generator::Jittered) | one at random in each of N boxes of equal volume | chooses the points |
 //! | [`Lattice`](Generator::Lattice) | i/N beside multiples of an irrational number | as Hammersley |
 //! | [`Random`](Generator::Random) | independent | chooses the points |
@@ -91,10 +91,8 @@ impl Sequence {
         if self.seed == 0 {
             return points;
         }
-        // Shifts of consecutive seeds are themselves well spread, so that a mean over frames converges faster than by chance.
-        let mut random = Self { seed: 0, ..self }.random();
-        let shift: [f64; D] =
-            std::array::from_fn(|axis| (random.unit() + f64::from(self.seed) * lattice::STEPS[axis]).fract());
+        let mut random = self.random();
+        let shift: [f64; D] = std::array::from_fn(|_| random.unit());
         for (x, by) in points.iter_mut().flat_map(|point| point.iter_mut().zip(shift)) {
             *x = (*x + by).fract();
         }

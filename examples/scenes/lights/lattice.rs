@@ -10,9 +10,6 @@ const GOLDEN: f64 = 0.618_033_988_749_894_8;
 /// 1 over the plastic number, the root of x^3 = x + 1; and 1 over its square.
 const PLASTIC: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
-/// Steps of a well-spread sequence in up to three dimensions: the powers of one over the root of x^4 = x + 1.
-pub const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789, 0.549_700_477_901_970_1];
-
 /// Point `index` of `count`.
 pub fn square(index: usize, count: usize) -> [f64; 2] {
     [middle(index, count), multiple(index, GOLDEN)]
@@ -39,13 +36,6 @@ mod tests {
         assert!(
             (plastic.powi(3) - plastic - 1.0).abs() < 1e-14 && (PLASTIC[0] * PLASTIC[0] - PLASTIC[1]).abs() < 1e-15
         );
-    }
-
-    #[test]
-    fn steps_are_powers_of_the_root() {
-        let root: f64 = 1.0 / STEPS[0];
-        assert!((root.powi(4) - root - 1.0).abs() < 1e-14);
-        assert!((STEPS[0].powi(2) - STEPS[1]).abs() < 1e-15 && (STEPS[0].powi(3) - STEPS[2]).abs() < 1e-15);
     }
 
     #[test]
