@@ -7,7 +7,10 @@ const BUILTIN: &[(&str, &str)] = &[
     ("hard_draw", include_str!("variants/hard_draw.ron")),
     ("shadow_map", include_str!("variants/shadow_map.ron")),
     ("pcf", include_str!("variants/pcf.ron")),
+    ("pcss", include_str!("variants/pcss.ron")),
+    ("multi_shadow_map", include_str!("variants/multi_shadow_map.ron")),
     ("rays", include_str!("variants/rays.ron")),
+    ("rays_soft", include_str!("variants/rays_soft.ron")),
     ("truth_hard", include_str!("variants/truth_hard.ron")),
     ("truth_soft", include_str!("variants/truth_soft.ron")),
 ];

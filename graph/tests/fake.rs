@@ -22,7 +22,8 @@ list_fill: cell slot list_offset -> list_entries
 casters: triangles triangle_flags light_samples -> caster_state
 conservative_raster: triangles caster_state light_samples light_frame list_length list_far -> pair_cell pair_slot caster_length
 caster_fill: pair_cell pair_slot caster_offset -> caster_entries
-visibility: triangles caster_state light_samples position sample_state cell list_length list_offset list_entries caster_offset caster_entries -> mask
+bvh_build: triangles caster_state -> bvh_nodes bvh_order
+visibility: triangles caster_state light_samples position sample_state cell list_length list_offset list_entries caster_offset caster_entries bvh_nodes? bvh_order? -> mask
 light_depth: triangles caster_state light_frame -> depth
 shadow_lookup: depth light_frame position sample_state -> mask visible
 combine: mask sample_state -> visible
@@ -51,14 +52,17 @@ casters/light_back_facing cw - -
 conservative_raster/binning cw - -
 conservative_raster/device w - -
 caster_fill/direct cw - -
-visibility/planes cw - -
-visibility/fused cw caster_offset,caster_entries -
-visibility/fused_draw w caster_offset,caster_entries -
+bvh_build/ploc c - -
+visibility/planes cw bvh_nodes,bvh_order -
+visibility/fused cw caster_offset,caster_entries,bvh_nodes,bvh_order -
+visibility/fused_draw w caster_offset,caster_entries,bvh_nodes,bvh_order -
 visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries -
-visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries contact_ulps
+visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,bvh_nodes,bvh_order contact_ulps
+visibility/multi_shadow_map cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,bvh_nodes,bvh_order -
 light_depth/first_surface cw - size,bias
 shadow_lookup/compare cw - -
 shadow_lookup/pcf cw - taps
+shadow_lookup/pcss cw - -
 combine/popcount cw - -
 bent_light/adjacent_faces cw - -
 shade/bent_lambert cw - -
@@ -89,6 +93,8 @@ fn port(name: &'static str) -> Port {
         "depth" => Port::new(Out, name, F32, name, "F D D").storage(Storage::DepthTexture),
         "pair_cell" => Port::new(Out, name, U32, "cell", "E"),
         "pair_slot" => Port::new(Out, name, U32, "slot", "E"),
+        "bvh_nodes" => Port::new(Out, name, U32, "bvh_node", "N 8"),
+        "bvh_order" => Port::new(Out, name, U32, "bvh_triangle", "T"),
         "caster_entries" => Port::new(Out, name, U32, "caster", "E"),
         _ => Port::new(Out, name, U32, name, "P"),
     }

@@ -25,3 +25,4 @@ pub mod shadow_map;
 pub mod shadow_raster;
 pub mod share;
 pub mod table_fill;
+pub mod threaded;
