@@ -1,5 +1,6 @@
 //! The command line, as clap sees it.
 
+use crate::jitter::Jitter;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -145,6 +146,12 @@ pub struct LightChoice {
     /// Linear RGB of the light
     #[arg(long, help_heading = "Light", value_name = "R,G,B")]
     pub light_color: Option<String>,
+    /// Give neighbouring pixels other samples of the same light: the set turned about the light's axis, or sets of other seeds
+    #[arg(long, help_heading = "Light", value_enum, default_value = "none")]
+    pub jitter: Jitter,
+    /// Pixels a side of the pattern in which jitter repeats: 2, 4 or 8. Every pixel of it is a run of its own
+    #[arg(long, help_heading = "Light", default_value_t = 4, value_name = "PIXELS")]
+    pub jitter_side: u32,
     /// Light samples, 1 to 4096; one is the light's centre. Without it: all of --light-points, else what the graph says, else 1
     #[arg(long, help_heading = "Light", value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub light_samples: Option<u32>,

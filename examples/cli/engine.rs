@@ -1,6 +1,7 @@
 //! Runs a plan whose nodes may be on both backends.
 
 use crate::args::BackendChoice;
+use crate::jitter;
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::ranges::{self, Ranges};
@@ -106,14 +107,14 @@ impl Machine {
         let inputs = job.inputs();
         let mut outcome = Outcome { runs_count: repeat, ..Outcome::new(plan) };
         let (rounds, warm_ups) = if shadowgraph_cpu::runs_all(plan) { (repeat, u32::from(repeat > 1)) } else { (1, 0) };
-        let ranges = Ranges::of(plan);
+        let ranges = Ranges::of(plan, job.sets.len() > 1);
         let count = self.range_count(plan, &ranges, &inputs, job.image)?;
-        let how = How { machine: self, image: job.image, repeat, progress };
+        let how = How { machine: self, job, repeat, progress };
         for round in 0..rounds + warm_ups {
             let mut store = Store::new(plan);
             supply(plan, &inputs, &mut store)?;
             let mut frame = Frame::new(plan);
-            if count == 1 {
+            if count == 1 && job.sets.len() == 1 {
                 for stretch in segments(plan) {
                     how.stretch(plan, stretch, &mut store, &mut frame)?;
                 }
@@ -174,7 +175,7 @@ struct Ran {
 /// How stretches of nodes run.
 struct How<'a> {
     machine: &'a Machine,
-    image: [usize; 2],
+    job: &'a Job,
     repeat: u32,
     progress: &'a Progress<'a>,
 }
@@ -183,14 +184,14 @@ impl How<'_> {
     /// Neighbouring nodes on one backend.
     fn stretch(&self, plan: &Plan, nodes: Range<usize>, store: &mut Store, frame: &mut Frame) -> Result<(), Problem> {
         let (millis, runs) = match plan.nodes[nodes.start].on {
-            Backend::Cpu => run_cpu(plan, nodes, self.image, store, self.progress)?,
-            Backend::Wgpu => self.machine.run_wgpu(plan, nodes, self.image, store, self.repeat)?,
+            Backend::Cpu => run_cpu(plan, nodes, self.job.image, store, self.progress)?,
+            Backend::Wgpu => self.machine.run_wgpu(plan, nodes, self.job.image, store, self.repeat)?,
         };
         frame.add(millis, runs);
         Ok(())
     }
 
-    /// Nodes that look at everything once, then the others over one range of view-samples after another.
+    /// Nodes that look at everything once, then the others over one part of the view-samples after another.
     fn in_ranges(
         &self,
         plan: &Plan,
@@ -200,23 +201,27 @@ impl How<'_> {
         frame: &mut Frame,
     ) -> Result<(), Problem> {
         let (taken, kept) = (ranges.taken(plan), ranges.kept(plan));
+        let pixels = plan.slots.iter().position(|slot| slot.port.quantity == PIXEL);
         let mut whole = plan.clone();
-        for slot in &taken {
+        for slot in taken.iter().chain(&pixels) {
             whole.slots[*slot].keep = true;
         }
         for stretch in ranges.stretches(plan, false) {
             self.stretch(&whole, stretch, store, frame)?;
         }
-        let rows = taken.iter().find(|slot| ranges::is_rows(&plan.slots[**slot].port));
-        let rows = rows.map_or(0, |slot| store.get(*slot).dim(0));
-        let parts: Vec<Vec<usize>> = ranges::split(rows, count).into_iter().map(Iterator::collect).collect();
+        let parts = self.parts(&taken, pixels, plan, store, count);
         let mut made: Vec<Vec<(Array, &[usize])>> = vec![Vec::new(); kept.len()];
-        for rows in &parts {
+        for (set, rows) in &parts {
+            let of_set = self.job.set_inputs(*set);
             let mut part = Store::new(plan);
             for slot in &taken {
-                let array = store.get(*slot);
-                let is_rows = ranges::is_rows(&plan.slots[*slot].port);
-                part.put(*slot, if is_rows { ranges::gather(array, rows) } else { array.clone() });
+                let name = &plan.slots[*slot].name;
+                let array = match of_set.iter().find(|(input, _)| input == name) {
+                    Some((_, array)) => array.clone(),
+                    None if ranges::is_rows(&plan.slots[*slot].port) => ranges::gather(store.get(*slot), rows),
+                    None => store.get(*slot).clone(),
+                };
+                part.put(*slot, array);
             }
             for stretch in ranges.stretches(plan, true) {
                 self.stretch(plan, stretch, &mut part, frame)?;
@@ -232,7 +237,37 @@ impl How<'_> {
         }
         Ok(())
     }
+
+    /// Sample set and rows of each part.
+    fn parts(
+        &self,
+        taken: &[usize],
+        pixels: Option<usize>,
+        plan: &Plan,
+        store: &Store,
+        count: usize,
+    ) -> Vec<(usize, Vec<usize>)> {
+        let mut by_set = Vec::new();
+        match pixels.and_then(|slot| store.try_get(slot)).filter(|_| self.job.sets.len() > 1) {
+            Some(pixels) => {
+                let set_of = |column, row| jitter::set_of(column, row, self.job.jitter_side);
+                by_set = ranges::by_set(pixels.as_u32(), self.job.image[0], set_of, self.job.sets.len());
+            }
+            None => {
+                let rows = taken.iter().find(|slot| ranges::is_rows(&plan.slots[**slot].port));
+                by_set.push((0..rows.map_or(0, |slot| store.get(*slot).dim(0))).collect());
+            }
+        }
+        let cut = |(set, rows): (usize, Vec<usize>)| {
+            let ranges = ranges::split(rows.len(), count).into_iter();
+            ranges.map(move |range| (set, rows[range].to_vec())).collect::<Vec<_>>()
+        };
+        by_set.into_iter().enumerate().flat_map(cut).collect()
+    }
 }
+
+/// Quantity of the port that says which pixel a view-sample is seen through.
+const PIXEL: &str = "pixel";
 
 /// One run of all nodes. A node that runs over several ranges has its times, bytes and counts added up.
 struct Frame {

@@ -10,7 +10,7 @@ use shadowgraph_scenes::lights::{LightSamples, Sampling, sample, turned};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Jitter {
-    /// One set for all pixels.
+    /// One set for all pixels
     #[default]
     None,
     /// The set turned about the light's axis of symmetry
@@ -43,7 +43,7 @@ pub fn sets(
     sampling: &Sampling,
     base: &LightSamples,
 ) -> Result<Vec<LightSamples>, Problem> {
-    if !SIDES.contains(&side) {
+    if jitter != Jitter::None && !SIDES.contains(&side) {
         return Err(usage_problem("--jitter-side is no pattern").expected("2, 4 or 8 pixels").found(side.to_string()));
     }
     let count = (side * side) as usize;

@@ -1,7 +1,7 @@
 //! Scene, camera, light and view-samples as the command line names them, ready as graph inputs.
 
 use crate::args::SceneChoice;
-use crate::{light_choice, npy, usage_problem};
+use crate::{jitter, light_choice, npy, usage_problem};
 use shadowgraph_core::array::Array;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::input;
@@ -24,10 +24,14 @@ pub struct Job {
     pub light: Light,
     /// How it is sampled.
     pub sampling: Sampling,
-    /// Light samples: the light's centre for hard shadows.
+    /// Light samples of all sets: the light's centre for hard shadows.
     pub samples: Vec<[f32; 3]>,
-    /// The RGB share of the light that each carries.
+    /// The RGB share of the light that each carries in its set.
     pub weights: Vec<[f32; 3]>,
+    /// Sample sets: one, or one for each pixel of the jitter pattern.
+    pub sets: Vec<LightSamples>,
+    /// Pixels a side of the jitter pattern.
+    pub jitter_side: usize,
     /// Picture width and height, pixels.
     pub image: [usize; 2],
     /// What `choose` may ask.
@@ -89,7 +93,10 @@ impl Job {
         notes.extend(note);
         let mut light = light_choice::light(light, rect_corners, camera.target, &choice.light, &mut notes)?;
         let sampling = light_choice::sampling(&light, &choice.light)?;
-        let LightSamples { positions: samples, weights, color } = lights::sample(&light, &sampling)?;
+        let base = lights::sample(&light, &sampling)?;
+        let sets = jitter::sets(choice.light.jitter, choice.light.jitter_side, &light, &sampling, &base)?;
+        let samples: Vec<_> = sets.iter().flat_map(|set| &set.positions).copied().collect();
+        let weights: Vec<_> = sets.iter().flat_map(|set| &set.weights).copied().collect();
         if sampling.count > 1 && !lights::has_extent(&light) {
             notes.push(format!(
                 "the light has no extent: all {} light samples coincide (--light-radius gives it one)",
@@ -97,9 +104,10 @@ impl Job {
             ));
         }
         // A texture's mean is part of the light's colour from here on: weights are shares of it.
-        let given_color = std::mem::replace(&mut light.color, color);
-        let facts = input::facts(&scene, &samples, !imports.is_empty()).with_weights(&weights);
+        let given_color = std::mem::replace(&mut light.color, base.color);
+        let facts = input::facts(&scene, &samples, !imports.is_empty()).with_weights(&base.weights);
         let scene_spec = choice.scene.clone();
+        let jitter_side = choice.light.jitter_side as usize;
         Ok(Self {
             scene_spec,
             scene,
@@ -108,6 +116,8 @@ impl Job {
             sampling,
             samples,
             weights,
+            sets,
+            jitter_side,
             image,
             facts,
             notes,
@@ -125,6 +135,18 @@ impl Job {
         arrays
     }
 
+    /// Light samples of a view-sample.
+    pub fn light_samples_count(&self) -> usize {
+        self.sets[0].positions.len()
+    }
+
+    /// The graph inputs that differ from sample set to sample set, of one set.
+    pub fn set_inputs(&self, set: usize) -> [(&'static str, Array); 2] {
+        let LightSamples { positions, weights, .. } = &self.sets[set];
+        let rows = |rows: &[[f32; 3]]| Array::f32([rows.len(), 3], rows.as_flattened().to_vec());
+        [(input::LIGHT_SAMPLES.name, rows(positions)), (input::LIGHT_WEIGHTS.name, rows(weights))]
+    }
+
     /// The same job on each of `sets` disjoint sets of as many light samples, see [`lights::sample_sets`].
     ///
     /// # Errors
@@ -132,9 +154,10 @@ impl Job {
     pub fn in_sets(&self, sets: usize) -> Result<impl Iterator<Item = Self> + '_, Problem> {
         let given = Light { color: self.given_color, ..self.light.clone() };
         let sets = lights::sample_sets(&given, &self.sampling, sets)?;
-        Ok(sets.into_iter().map(|LightSamples { positions: samples, weights, color }| {
-            let light = Light { color, ..self.light.clone() };
-            Self { samples, weights, light, ..self.clone() }
+        Ok(sets.into_iter().map(|set| {
+            let light = Light { color: set.color, ..self.light.clone() };
+            let (samples, weights) = (set.positions.clone(), set.weights.clone());
+            Self { samples, weights, sets: vec![set], light, ..self.clone() }
         }))
     }
 

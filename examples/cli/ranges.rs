@@ -1,16 +1,18 @@
-//! View-samples in ranges: everything after the light frame runs over some rows of the view-samples at a time, so that masks of
-//! many light samples fit the bindings of a device and the memory of a machine. Ranges are independent: each makes its own
-//! lists and caster table, and the answers are those of a single run, row by row.
+//! View-samples in parts: everything after the light frame runs over some rows of the view-samples at a time. Parts are
+//! independent: each makes its own lists and caster table, and the answers are those of a single run, row by row. So masks of many
+//! light samples fit the bindings of a device and the memory of a machine; and so pixels may have light samples of their own
+//! ([`crate::jitter`]).
 
 use shadowgraph_core::array::{Array, Element};
+use shadowgraph_core::input::{LIGHT_SAMPLES, LIGHT_WEIGHTS};
 use shadowgraph_core::plan::{Plan, Producer, Shapes, SlotId};
 use shadowgraph_core::port::Port;
 use std::ops::Range;
 
-/// Stages that look at all view-samples at once; they and whatever does not depend on view-samples run once.
-const WHOLE: &[&str] = &["view_samples", "sample_filter", "light_frame"];
+/// Stages that look at all view-samples, and all light samples, at once; they and whatever depends on neither run once.
+const WHOLE: &[&str] = &["view_samples", "sample_filter", "light_frame", "casters"];
 
-/// Which nodes of a plan run once, and which over ranges of view-samples.
+/// Which nodes of a plan run once, and which over parts of the view-samples.
 pub struct Ranges {
     /// For each node of the plan.
     is_ranged: Vec<bool>,
@@ -18,15 +20,15 @@ pub struct Ranges {
 
 impl Ranges {
     /// Of `plan`: ranged is each node outside [`WHOLE`] that reads rows of view-samples, and each that reads what a ranged one
-    /// makes.
-    pub fn of(plan: &Plan) -> Self {
+    /// makes; with several sample sets also each that reads light samples.
+    pub fn of(plan: &Plan, has_sets: bool) -> Self {
         let mut is_ranged = vec![false; plan.nodes.len()];
         for (index, node) in plan.nodes.iter().enumerate() {
             let mut reads = node.inputs.iter().map(|(_, slot)| &plan.slots[*slot]);
             is_ranged[index] = !WHOLE.contains(&node.pass.stage.name)
                 && reads.any(|slot| match slot.producer {
                     Producer::Node(producer) => is_ranged[producer] || is_rows(&slot.port),
-                    Producer::Input => is_rows(&slot.port),
+                    Producer::Input => is_rows(&slot.port) || has_sets && is_of_set(&slot.name),
                 });
         }
         Self { is_ranged }
@@ -78,6 +80,21 @@ impl Ranges {
 pub fn split(rows: usize, count: usize) -> Vec<Range<usize>> {
     let count = count.clamp(1, rows.max(1));
     (0..count).map(|range| rows * range / count..rows * (range + 1) / count).collect()
+}
+
+/// Whether the graph input is one of those that differ from sample set to sample set.
+pub fn is_of_set(name: &str) -> bool {
+    name == LIGHT_SAMPLES.name || name == LIGHT_WEIGHTS.name
+}
+
+/// Rows by the sample set of their pixel, ascending within each; pixels are row-major in a picture of this width.
+pub fn by_set(pixels: &[u32], width: usize, set_of: impl Fn(usize, usize) -> usize, sets: usize) -> Vec<Vec<usize>> {
+    let mut rows = vec![Vec::new(); sets];
+    for (row, pixel) in pixels.iter().enumerate() {
+        let pixel = *pixel as usize;
+        rows[set_of(pixel % width.max(1), pixel / width.max(1))].push(row);
+    }
+    rows
 }
 
 /// Whether the port has a row for every view-sample.
@@ -143,6 +160,12 @@ mod tests {
             assert_eq!(ranges.iter().map(Range::len).sum::<usize>(), rows, "{rows} {count}");
             assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start) && ranges[0].start == 0);
         }
+    }
+
+    #[test]
+    fn rows_go_to_the_set_of_their_pixel() {
+        let rows = by_set(&[0, 1, 2, 3, 4, 5], 3, |column, row| (column + row) % 2, 2);
+        assert_eq!(rows, [vec![0, 2, 4], vec![1, 3, 5]]);
     }
 
     #[test]

@@ -124,7 +124,7 @@ impl RunRecord {
                 light_shape: job.light.shape.name(),
                 light_radius: job.light.radius,
                 light_color: job.light.color,
-                light_samples_count: job.samples.len(),
+                light_samples_count: job.light_samples_count(),
                 light_generator: job.sampling.generator.name(),
                 light_seed: job.sampling.seed,
             },

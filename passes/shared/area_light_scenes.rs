@@ -3,6 +3,8 @@
 use super::hard_scenes::{Case, Inputs, Random, output, random, scan};
 use super::predicate::blocks;
 use shadowgraph_core::array::Array;
+use shadowgraph_core::cpu::CpuCx;
+use shadowgraph_core::param::{Params, Value};
 use shadowgraph_core::shared::KEPT;
 
 /// A frame with an area light.
@@ -105,4 +107,32 @@ impl SoftCase {
         }
         inputs
     }
+}
+
+/// A table pass of stage `lu_table` with `size` bins, added to `inputs`.
+pub fn add_table(inputs: &mut Inputs, table: &str, size: u32) {
+    let Some(pass) = crate::catalogue().pass("lu_table", table) else { unreachable!("no table {table}") };
+    let params = Params(vec![("size", Value::U32(size))]);
+    let read = inputs.iter().map(|(name, array)| (*name, array)).collect();
+    let mut cx = CpuCx::new(pass, &params, [1, 1], read, &|_, _| {});
+    let function = pass.cpu.expect("has a CPU function");
+    function(&mut cx).expect("makes a table");
+    let (outputs, _) = cx.finish();
+    inputs.extend(outputs);
+}
+
+/// Points of the unit ball, well spread.
+pub fn ball(count: usize) -> Vec<[f32; 3]> {
+    let r = &mut Random(1);
+    let mut points: Vec<[f32; 3]> = Vec::new();
+    while points.len() < count {
+        // The best of ten is the farthest from all others.
+        let inside = (0..30).map(|_| r.point()).filter(|p| p.iter().map(|x| x * x).sum::<f32>() <= 1.0).take(10);
+        let far = |p: &[f32; 3]| {
+            let apart = |q: &[f32; 3]| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f32>();
+            points.iter().map(apart).fold(f32::MAX, f32::min)
+        };
+        points.extend(inside.max_by(|a, b| far(a).total_cmp(&far(b))));
+    }
+    points
 }

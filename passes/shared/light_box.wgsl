@@ -2,7 +2,8 @@
 // Joined after the prelude.
 @group(0) @binding(0) var<uniform> count: u32;
 @group(0) @binding(1) var<storage, read> light_samples: array<f32>;
-// Middle; half extents; then xxxx, yyyy, zzzz of every four light samples, up to a multiple of 128, past the last that one again.
+// Middle; half extents; then xxxx, yyyy, zzzz of every four light samples, up to a multiple of 128, past the last that one again; then
+// the light samples as they are.
 @group(0) @binding(2) var<storage, read_write> light: array<vec4<f32>>;
 
 var<workgroup> lows: array<vec3<f32>, 64>;
@@ -45,5 +46,9 @@ fn light_box(@builtin(local_invocation_index) local: u32) {
         light[2u + 3u * four] = vec4<f32>(first.x, second.x, third.x, fourth.x) / divisor.x;
         light[3u + 3u * four] = vec4<f32>(first.y, second.y, third.y, fourth.y) / divisor.y;
         light[4u + 3u * four] = vec4<f32>(first.z, second.z, third.z, fourth.z) / divisor.z;
+    }
+    let first_sample = 2u + (count + 127u) / 128u * 96u;
+    for (var index = local; index < count; index += GROUP) {
+        light[first_sample + index] = vec4<f32>(light_sample(index), 0.0);
     }
 }

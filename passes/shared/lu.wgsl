@@ -1,7 +1,7 @@
 // Which bin a plane falls in, as lu.rs says. Joined after soft_join.wgsl.
-@group(0) @binding(17) var<storage, read> lu: array<vec4<u32>>;
-@group(0) @binding(18) var<storage, read> lu_layout: array<f32>;
-@group(0) @binding(19) var<uniform> lu_size: u32;
+@group(0) @binding(15) var<storage, read> lu: array<vec4<u32>>;
+@group(0) @binding(16) var<storage, read> lu_layout: array<f32>;
+@group(0) @binding(17) var<uniform> lu_size: u32;
 
 const PI: f32 = 3.14159265;
 

@@ -20,11 +20,13 @@ pub fn record_lu(cx: &mut GpuCx, pieces: &'static [&'static str], is_planar: boo
     check_bytes(&shape, cx.limits().storage_binding_bytes)?;
     let light_sample_count = cx.dim("light_samples", 0);
     let size = shape[1];
+    // A pass without counters has no memory for them.
+    let off_plane = if is_planar { Target::Counters } else { cx.scratch("off_plane", 1) };
     let layout = vec![
         Bind::Uniform(vec![light_sample_count as u32, u32::from(is_planar)]),
         Bind::Read(Target::Port("light_samples")),
         Bind::ReadWrite(Target::Port("lu_layout")),
-        Bind::ReadWrite(Target::Counters),
+        Bind::ReadWrite(off_plane),
     ];
     cx.dispatch("lu_layout", LAYOUT, "lu_layout_of", layout, 1, GROUP);
     let rows = if is_planar { size } else { size * size };

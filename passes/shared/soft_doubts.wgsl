@@ -1,9 +1,9 @@
 // Decides what soft_join.wgsl left in doubt, in two-float arithmetic: workgroups for each (view-sample, block), casters shared out so
 // thin that no invocation comes near the loop limit even where every light sample is in doubt: 12 casters of 128 decisions of 9 steps.
-// Joined last; needs soft_sides.wgsl.
+// Joined last; needs soft_sides.wgsl and `counters`.
 
 fn light_sample(index: u32) -> vec3<f32> {
-    return vec3<f32>(light_samples[3u * index], light_samples[3u * index + 1u], light_samples[3u * index + 2u]);
+    return light_words[2u + 96u * numbers.blocks + index].xyz;
 }
 
 // All of `block` that `caster` hides.

@@ -16,21 +16,19 @@ struct Numbers {
 @group(0) @binding(0) var<uniform> numbers: Numbers;
 @group(0) @binding(1) var<storage, read> triangles: array<f32>;
 @group(0) @binding(2) var<storage, read> caster_state: array<u32>;
-@group(0) @binding(3) var<storage, read> light_samples: array<f32>;
-@group(0) @binding(4) var<storage, read> position: array<f32>;
-@group(0) @binding(5) var<storage, read> own_triangle: array<u32>;
-@group(0) @binding(6) var<storage, read> sample_state: array<u32>;
-@group(0) @binding(7) var<storage, read> cell: array<u32>;
-@group(0) @binding(8) var<storage, read> list_offset: array<u32>;
-@group(0) @binding(9) var<storage, read> list_entries: array<u32>;
-@group(0) @binding(10) var<storage, read> caster_offset: array<u32>;
-@group(0) @binding(11) var<storage, read> caster_entries: array<u32>;
-@group(0) @binding(12) var<storage, read> light_words: array<vec4<f32>>;
-@group(0) @binding(13) var<storage, read_write> mask: array<atomic<u32>>;
+@group(0) @binding(3) var<storage, read> position: array<f32>;
+@group(0) @binding(4) var<storage, read> own_triangle: array<u32>;
+@group(0) @binding(5) var<storage, read> sample_state: array<u32>;
+@group(0) @binding(6) var<storage, read> cell: array<u32>;
+@group(0) @binding(7) var<storage, read> list_offset: array<u32>;
+@group(0) @binding(8) var<storage, read> list_entries: array<u32>;
+@group(0) @binding(9) var<storage, read> caster_offset: array<u32>;
+@group(0) @binding(10) var<storage, read> caster_entries: array<u32>;
+@group(0) @binding(11) var<storage, read> light_words: array<vec4<f32>>;
+@group(0) @binding(12) var<storage, read_write> mask: array<atomic<u32>>;
 // (view-sample, block) left to other kernels, as view-sample * blocks + block: three queues, each of one at most once.
-@group(0) @binding(14) var<storage, read_write> queue: array<atomic<u32>>;
-@group(0) @binding(15) var<storage, read_write> queued: array<atomic<u32>, 3>;
-@group(0) @binding(16) var<storage, read_write> counters: array<atomic<u32>>;
+@group(0) @binding(13) var<storage, read_write> queue: array<atomic<u32>>;
+@group(0) @binding(14) var<storage, read_write> queued: array<atomic<u32>, 3>;
 
 const LONG: u32 = 0u;
 const DOUBTS: u32 = 1u;
@@ -158,10 +156,10 @@ fn soft_join(@builtin(global_invocation_id) id: vec3<u32>) {
     var is_doubtful = false;
     for (var entry = casters.x; entry < casters.y && any(hidden != used); entry++) {
         let found = hides(caster_entries[entry], block, receiver, light);
-        hidden |= found.hidden;
+        hidden |= found.hidden & used;
         is_doubtful |= found.is_doubtful;
     }
-    hide(sample, block, hidden & used);
+    hide(sample, block, hidden);
     if is_long || (is_doubtful && any(hidden != used)) {
         push(select(DOUBTS, LONG, is_long), sample * numbers.blocks + block);
     }
@@ -186,10 +184,10 @@ fn soft_long(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_
     for (var entry = casters.x + group.z * GROUP + local; entry < casters.y && any(hidden != used);
         entry += GROUP * numbers.shares) {
         let found = hides(caster_at(sample, entry), block, receiver, light);
-        hidden |= found.hidden;
+        hidden |= found.hidden & used;
         is_doubtful |= found.is_doubtful;
     }
-    hide(sample, block, hidden & used);
+    hide(sample, block, hidden);
     if is_doubtful && (atomicOr(&queue[place], IN_DOUBTS) & IN_DOUBTS) == 0u {
         push(LONG_DOUBTS, item);
     }

@@ -50,7 +50,7 @@ pub fn record_soft(cx: &mut GpuCx, join: Join) -> Result<(), Problem> {
     // A cell lists each triangle once.
     let shares = |casters: usize| cx.dim("triangles", 0).div_ceil(GROUP * casters).max(1) as u32;
     let (long, doubtful) = (shares(OWN_CASTERS), shares(DECIDED_CASTERS));
-    let light = cx.scratch("light_box", 4 * (2 + 3 * blocks * BLOCK / 4));
+    let light = cx.scratch("light_box", 4 * (2 + 3 * blocks * BLOCK / 4 + light_sample_count));
     let queue = cx.scratch("soft_queue", QUEUES * items);
     let queued = cx.scratch("soft_queued", QUEUES);
     cx.zero(queued);
@@ -66,12 +66,12 @@ pub fn record_soft(cx: &mut GpuCx, join: Join) -> Result<(), Problem> {
         .into_iter()
         .chain([long, doubtful, 0]);
     let mut bind = vec![Bind::Uniform(numbers.collect())];
-    let ports = ["triangles", "caster_state", "light_samples", "position", "triangle", "sample_state", "cell"];
+    let ports = ["triangles", "caster_state", "position", "triangle", "sample_state", "cell"];
     let lists = ["list_offset", "list_entries", "caster_offset", "caster_entries"];
     bind.extend(ports.into_iter().chain(lists).map(|port| Bind::Read(Target::Port(port))));
     bind.push(Bind::Read(light));
     bind.push(Bind::ReadWrite(Target::Port("mask")));
-    bind.extend([queue, queued, Target::Counters].map(Bind::ReadWrite));
+    bind.extend([queue, queued].map(Bind::ReadWrite));
     bind.extend(join.more);
     cx.dispatch("soft_start", join.pieces, "soft_start", bind.clone(), sample_count * words, GROUP);
     cx.dispatch("soft_join", join.pieces, "soft_join", bind.clone(), items, GROUP);

@@ -8,6 +8,7 @@ pub mod half_planes;
 pub mod lu;
 pub mod lu_certain;
 pub mod lu_planar;
+pub mod multi_shadow_map;
 pub mod planes;
 pub mod shafts;
 
@@ -26,6 +27,7 @@ pub static STAGE: Stage = Stage {
         input::LIGHT_SAMPLES.read(),
         ports::LIGHT_FRAME.read(),
         ports::POSITION.read(),
+        ports::NORMAL.read(),
         ports::TRIANGLE.read(),
         ports::SAMPLE_STATE.read(),
         ports::CELL.read(),
@@ -37,6 +39,8 @@ pub static STAGE: Stage = Stage {
         ports::CASTER_ENTRIES.read(),
         ports::LU.optional(),
         ports::LU_LAYOUT.optional(),
+        ports::BVH_NODES.optional(),
+        ports::BVH_ORDER.optional(),
         ports::MASK,
     ],
 };
@@ -53,4 +57,5 @@ pub const PASSES: &[&Pass] = &[
     &lu::PASS,
     &lu_planar::PASS,
     &lu_certain::PASS,
+    &multi_shadow_map::PASS,
 ];

@@ -57,6 +57,11 @@ pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems
         wrote.push(format!("wrote {} and {}", png.display(), exr.display()));
     }
     if let Some(folder) = &args.dump {
+        if job.sets.len() > 1 {
+            return Err(crate::usage_problem("a dump holds one sample set, but pixels have sets of their own")
+                .remedy("use --dump with --jitter none")
+                .into());
+        }
         let count = dump::write(folder, &plan, &job.inputs(), &outcome)?;
         wrote.push(format!("wrote {count} arrays to {}", folder.display()));
     }

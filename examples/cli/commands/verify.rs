@@ -110,7 +110,8 @@ pub fn verify(
     };
     let filters_facing =
         plan.nodes.iter().any(|node| node.pass.stage.name == "sample_filter" && node.pass.name != "all");
-    let verdict = judge(&answer, truth.mask, truth.state, job.samples.len(), filters_facing, job.image[0], contact);
+    let verdict =
+        judge(&answer, truth.mask, truth.state, job.light_samples_count(), filters_facing, job.image[0], contact);
     if let Some(folder) = &args.out {
         std::fs::create_dir_all(folder).map_err(|error| file_problem(folder, &error))?;
         let name = if view.is_empty() { "wrong.png".to_string() } else { format!("wrong-{view}.png") };

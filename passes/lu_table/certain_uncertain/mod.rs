@@ -34,7 +34,7 @@ pub static PASS: Pass = Pass {
         doc: "bins along each coordinate, rounded up to an even number; bits left to arithmetic halve and memory grows eightfold as it doubles",
     }],
     counters: &[],
-    contract: Contract::Within(0.5),
+    contract: Contract::Approximate,
     features: &[],
     size,
     cpu: Some(cpu::run),

@@ -2,7 +2,7 @@
 
 use crate::shared::soft_record::{Join, record_soft};
 use shadowgraph_core::problem::Problem;
-use shadowgraph_core::record::GpuCx;
+use shadowgraph_core::record::{Bind, GpuCx, Target};
 use shadowgraph_core::shared::PRELUDE;
 
 const KERNEL: &[&str] = &[
@@ -18,5 +18,5 @@ const KERNEL: &[&str] = &[
 
 /// Records the pass.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
-    record_soft(cx, Join { pieces: KERNEL, more: Vec::new(), has_doubts: true })
+    record_soft(cx, Join { pieces: KERNEL, more: vec![Bind::ReadWrite(Target::Counters)], has_doubts: true })
 }

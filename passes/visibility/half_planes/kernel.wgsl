@@ -1,5 +1,8 @@
 // Joined after soft_join.wgsl.
 
+// Number of (view-sample, caster, light sample) that were decided in two-float arithmetic.
+@group(0) @binding(15) var<storage, read_write> counters: array<atomic<u32>>;
+
 // All planes at every light sample of the block. Where one comes within rounding of a plane, the pair is left to another kernel.
 fn hidden_block(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, block: u32, receiver: Receiver, light: Light) -> Found {
     let sides = sides_of(pair, a, b, c, receiver, light);

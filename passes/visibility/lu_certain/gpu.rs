@@ -27,6 +27,11 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
         return Err(missing_layout());
     }
     let size = cx.dim("lu", 1) as u32;
-    let more = vec![Bind::Read(Target::Port("lu")), Bind::Read(Target::Port("lu_layout")), Bind::Uniform(vec![size])];
+    let more = vec![
+        Bind::Read(Target::Port("lu")),
+        Bind::Read(Target::Port("lu_layout")),
+        Bind::Uniform(vec![size]),
+        Bind::ReadWrite(Target::Counters),
+    ];
     record_soft(cx, Join { pieces: KERNEL, more, has_doubts: true })
 }

@@ -1,5 +1,8 @@
 // Joined after lu.wgsl.
 
+// Number of (view-sample, caster, light sample) that were decided in two-float arithmetic.
+@group(0) @binding(18) var<storage, read_write> counters: array<atomic<u32>>;
+
 // Largest error of a direction, and of a distance over R, that is looked up; the table's slack is above it by far.
 const FIRM: f32 = 3e-5;
 
