@@ -22,6 +22,11 @@ pub fn verify_args(words: &[&str]) -> VerifyArgs {
 
 /// A scene at a picture size.
 pub fn job(scene: &str, size: &str) -> Job {
-    let args = render_args(&["hard", "--scene", scene, "--size", size]);
+    job_lit(scene, size, &[])
+}
+
+/// The same with words for the light.
+pub fn job_lit(scene: &str, size: &str, light: &[&str]) -> Job {
+    let args = render_args(&[&["hard", "--scene", scene, "--size", size], light].concat());
     Job::load(&args.scene).unwrap_or_else(|problem| panic!("{scene}: {problem}"))
 }
