@@ -1,5 +1,6 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
+mod area_lights;
 mod bench;
 mod closed_form;
 mod contamination;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
     trials.extend(twins::controls());
     trials.extend(twins::trials());
     trials.extend(pairs::trials());
+    trials.extend(area_lights::trials());
     trials.extend(contamination::trials());
     trials.extend(ranges::trials());
     trials.extend(device_raster::trials());

@@ -25,6 +25,10 @@ const GRAPHS: &[(&str, &[&str])] = &[
     ("hard", &["visibility=fused", "light_frame=six_faces", "combine=threshold", "bent_light=own_face", "shade=phong"]),
     ("shadow_map", &["light_depth=second_surface"]),
     ("pcf", &[]),
+    ("soft", &[]),
+    ("soft_lu", &[]),
+    ("soft_lu_planar", &[]),
+    ("soft_certain", &[]),
 ];
 
 /// The same for passes that tell light samples apart: they run on this many.
