@@ -20,8 +20,13 @@ pub fn verify_args(words: &[&str]) -> VerifyArgs {
     }
 }
 
-/// A scene at a picture size.
+/// A scene at a picture size, with one light sample.
 pub fn job(scene: &str, size: &str) -> Job {
-    let args = render_args(&["hard", "--scene", scene, "--size", size]);
+    soft_job(scene, size, &[])
+}
+
+/// The same with further flags, for light samples.
+pub fn soft_job(scene: &str, size: &str, flags: &[&str]) -> Job {
+    let args = render_args(&[&["hard", "--scene", scene, "--size", size], flags].concat());
     Job::load(&args.scene).unwrap_or_else(|problem| panic!("{scene}: {problem}"))
 }

@@ -1,5 +1,6 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
+mod baselines;
 mod bench;
 mod contamination;
 mod docs;
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
     trials.extend(twins::trials());
     trials.extend(contamination::trials());
     trials.extend(truth::trials());
+    trials.extend(baselines::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

@@ -1,7 +1,7 @@
 //! CPU function against GPU recipe, node by node on equal inputs: a graph runs on the CPU with every value kept, then each node's
 //! recipe runs on the values its CPU function read, and the outputs are compared as the pass's contract says.
 
-use crate::bench::{job, render_args};
+use crate::bench::{render_args, soft_job};
 use crate::gpu;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::BackendChoice;
@@ -24,7 +24,14 @@ const GRAPHS: &[(&str, &[&str])] = &[
     ("hard", &["visibility=fused", "light_frame=six_faces", "combine=threshold", "bent_light=own_face", "shade=phong"]),
     ("shadow_map", &["light_depth=second_surface"]),
     ("pcf", &[]),
+    ("rays", &[]),
+    ("pcss", &[]),
+    ("multi_shadow_map", &[]),
 ];
+
+/// Graphs for any number of light samples, which run with some, too: 33 are two words of mask, the second nearly empty.
+const SOFT: &[&str] = &["rays_soft", "pcss", "multi_shadow_map"];
+const LIGHT: &[&str] = &["--light-samples", "33", "--light-radius", "0.3"];
 
 const SCENES: &[(&str, &str)] = &[
     ("builtin:columns", "65x63"),
@@ -42,14 +49,27 @@ pub fn trials() -> Vec<Trial> {
                 "twins/{graph}{}/{scene}@{size}",
                 swaps.iter().map(|swap| format!("+{swap}")).collect::<String>()
             );
-            trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, scene, size)));
+            trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, &[], scene, size)));
+        }
+    }
+    for graph in SOFT {
+        for (scene, size) in SCENES.iter().chain([&("builtin:light-inside", "40x30")]) {
+            let name = format!("twins/{graph}/33 light samples/{scene}@{size}");
+            trials.push(gpu::trial(name, move |session| twins(session, graph, &[], LIGHT, scene, size)));
         }
     }
     trials
 }
 
-fn twins(session: &Session, graph: &str, swaps: &[&str], scene: &str, size: &str) -> Result<(), Failed> {
-    let job = job(scene, size);
+fn twins(
+    session: &Session,
+    graph: &str,
+    swaps: &[&str],
+    light: &[&str],
+    scene: &str,
+    size: &str,
+) -> Result<(), Failed> {
+    let job = soft_job(scene, size, light);
     let words: Vec<String> = std::iter::once(graph.to_string())
         .chain(swaps.iter().flat_map(|swap| ["--swap".to_string(), swap.to_string()]))
         .collect();
