@@ -13,7 +13,8 @@ use shadowgraph_graph::Keep;
 const SOFT: &[&str] = &["--light-samples", "40", "--light-radius", "0.3"];
 
 /// Scenes on which rays keep their contract; `degenerate` holds faces that lie in one another.
-const RAY_SCENES: &[&str] = &["columns", "contact", "thin", "coplanar-p?pixels=32", "degenerate", "light-inside", "far-light"];
+const RAY_SCENES: &[&str] =
+    &["columns", "contact", "thin", "coplanar-p?pixels=32", "degenerate", "light-inside", "far-light"];
 
 /// All of them.
 pub fn trials() -> Vec<Trial> {

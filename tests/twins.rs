@@ -8,6 +8,7 @@ use shadowgraph::args::BackendChoice;
 use shadowgraph::engine::Machine;
 use shadowgraph::graph_choice;
 use shadowgraph_core::array::{Array, Element};
+use shadowgraph_core::metric::mask_difference;
 use shadowgraph_core::pass::Contract;
 use shadowgraph_core::plan::{Backend, Node};
 use shadowgraph_core::shared::NO_CELL;
@@ -115,6 +116,11 @@ fn node_faults(node: &Node, inputs: Named, cpu: &[(&'static str, &Array)], gpu: 
                 let found = port(name)?;
                 // A pixel centre within rounding of an edge may see either triangle; the rasteriser snaps corners to a grid.
                 let one_in = if node.pass.stage.name == "view_samples" { 200 } else { 1000 };
+                let lights =
+                    inputs.iter().find(|(port, _)| *port == "light_samples").map_or(0, |(_, array)| array.dim(0));
+                if *name == "mask" && lights > 1 {
+                    return mask_fault(wanted, found, lights, node.pass.contract, one_in as u64);
+                }
                 value_fault(wanted, found, node.pass.contract, one_in)
                     .map(|fault| format!("{}.{name}: {fault}", node.id))
             })
@@ -146,6 +152,17 @@ fn value_fault(wanted: &Array, found: &Array, contract: Contract, one_in: usize)
         let first = (0..wanted.words().len()).find(|index| differs(index)).unwrap_or(0);
         format!("{count} of {} words differ, first word {first}", wanted.words().len())
     })
+}
+
+/// Masks of many light samples, bit by bit: words with one bit in doubt each would be no measure.
+fn mask_fault(wanted: &Array, found: &Array, lights: usize, contract: Contract, one_in: u64) -> Option<String> {
+    if wanted.shape() != found.shape() {
+        return Some(format!("shape {:?}, not {:?}", found.shape(), wanted.shape()));
+    }
+    let difference = mask_difference(found.as_u32(), wanted.as_u32(), wanted.dim(1), lights, |_| true);
+    let allowed = if contract == Contract::Exact { 0 } else { difference.bits_count / one_in + 1 };
+    let (count, all) = (difference.wrong_count(), difference.bits_count);
+    (count > allowed).then(|| format!("mask: {count} of {all} bits differ, first row {}", difference.wrong_rows[0]))
 }
 
 fn list_faults(
@@ -201,6 +218,11 @@ pub fn controls() -> Vec<Trial> {
         assert!(value_fault(&wanted, &found, Contract::Within(0.1), 1000).is_some());
         assert!(value_fault(&whole, &Array::u32([2], vec![1, 3]), Contract::Exact, 1000).is_some());
         assert!(value_fault(&whole, &Array::u32([1], vec![1]), Contract::Exact, 1000).is_some());
+        let masks = |word: u32| Array::u32([2, 2], vec![word, 0, 5, 1 << 7]);
+        assert!(mask_fault(&masks(0), &masks(0), 39, Contract::Exact, 1000).is_none());
+        assert!(mask_fault(&masks(0), &masks(8), 39, Contract::Exact, 1000).is_some());
+        assert!(mask_fault(&masks(0), &masks(8), 39, Contract::Approximate, 1000).is_none());
+        assert!(mask_fault(&masks(0), &masks(12), 39, Contract::Approximate, 1000).is_some());
         let offsets = [("list_offset", Array::u32([3], vec![0, 2, 3]))];
         let (one, same, other) =
             (Array::u32([3], vec![5, 6, 7]), Array::u32([3], vec![6, 5, 7]), Array::u32([3], vec![6, 7, 5]));
