@@ -20,7 +20,7 @@ pub fn verify_args(words: &[&str]) -> VerifyArgs {
     }
 }
 
-/// A scene at a picture size.
+/// A scene at a picture size, with one light sample.
 pub fn job(scene: &str, size: &str) -> Job {
     job_lit(scene, size, &[])
 }
