@@ -28,7 +28,7 @@ pub fn trials() -> Vec<Trial> {
             .map(|seed| {
                 let soft = soft(seed, "sphere", 20, 80);
                 let middle = soft.case.light;
-                let shrink = |s: &[f32; 3]| [0, 1, 2].map(|k| middle[k] + 0.8 * (s[k] - middle[k]));
+                let shrink = |s: &[f32; 3]| [0, 1, 2].map(|k| middle[k] + 0.5 * (s[k] - middle[k]));
                 let light: Vec<[f32; 3]> = soft.light.iter().map(shrink).collect();
                 let found = found(session, &params("ellipsoid", 8, true), &soft.inputs_lit_by(&light))?;
                 Ok(needed(&soft).difference(&found).count())
@@ -72,6 +72,7 @@ fn check(session: &Session, index: u64, light: &str) -> Result<(), Failed> {
                 return Err(format!("seed {seed}, {bound} {sides}: {pair:?} and {} more are missing", count - 1).into());
             }
             let (outputs, _) = run_with(&PASS, &params, &inputs).map_err(|problem| problem.to_string())?;
+            if std::env::var("PAIRS_DEBUG").is_ok() { eprintln!("{light} {seed} {bound} {sides} side {} faces {} gpu {} cpu {}", soft.case.side, soft.case.faces.len(), found.len(), pairs(&outputs).len()); }
             all += found.len();
             twin += pairs(&outputs).len();
         }

@@ -74,9 +74,11 @@ fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: 
 
     // Beyond one of the face's sides, and further beyond than the light.
     let wide = region.reach * axis_z;
-    if beyond_side(caster, axis_x + wide) || beyond_side(caster, wide - axis_x) || beyond_side(caster, axis_y + wide)
-        || beyond_side(caster, wide - axis_y) || beyond_side(caster, axis_z) {
-        return region;
+    var sides_inwards = array<vec3<f32>, 5>(wide + axis_x, wide - axis_x, wide + axis_y, wide - axis_y, axis_z);
+    for (var k = 0u; k < 5u; k++) {
+        if beyond_side(caster, sides_inwards[k]) {
+            return region;
+        }
     }
     let depths = vec3<f32>(dot(axis_z, (*caster).a), dot(axis_z, (*caster).b), dot(axis_z, (*caster).c));
     let room = ERROR * (*caster).far;
@@ -112,37 +114,33 @@ fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: 
 
     // The hull of the projections onto the plane at the largest depth.
     let depth = max(face_far, max(depths.x, max(depths.y, depths.z)));
-    let sides = body_sides();
+    let sides = body.sides;
     var points: Points;
     var pad = 0.0;
+    var low = vec2<f32>(3e38);
+    var high = vec2<f32>(-3e38);
     for (var corner = 0u; corner < 3u; corner++) {
-        let offset = select(select((*caster).c, (*caster).b, corner == 1u), (*caster).a, corner == 0u);
-        let rays = directions_through(offset);
-        if !rays.any {
-            return region;
-        }
-        let at = vec3<f32>(dot(axis_x, offset), dot(axis_y, offset), dot(axis_z, offset));
+        let place = select(select((*caster).c, (*caster).b, corner == 1u), (*caster).a, corner == 0u);
+        let cone = cone_through(place);
+        let at = vec3<f32>(dot(axis_x, place), dot(axis_y, place), dot(axis_z, place));
         let left = max(depth - at.z, 0.0) / depth;
+        let share = left + ERROR * sum_of_sizes(place) / depth;
         for (var k = 0u; k < sides; k++) {
-            let ray = vec3<f32>(dot(axis_x, rays.ray[k]), dot(axis_y, rays.ray[k]), dot(axis_z, rays.ray[k]));
+            let world = cone_ray(cone, k);
+            let ray = vec3<f32>(dot(axis_x, world), dot(axis_y, world), dot(axis_z, world));
             let size = sum_of_sizes(ray);
-            let stray = rays.stray + ERROR * sum_of_sizes(rays.ray[k]);
+            let stray = cone.stray + ERROR * sum_of_sizes(world);
             let z = ray.z - stray;
-            if z <= BESIDE * size {
+            if !cone.any || z <= BESIDE * size {
                 return region;
             }
             let point = at.xy / depth + ray.xy * (left / ray.z);
             points.at[corner * sides + k] = point;
-            let share = left + ERROR * sum_of_sizes(offset) / depth;
-            pad = max(pad, 2.0 * ERROR * (1.0 + abs(point.x) + abs(point.y) + sum_of_sizes(offset) / depth + share * size / z)
-                + share * stray / z * (1.0 + size / z));
+            low = min(low, point);
+            high = max(high, point);
+            let rounding = 1.0 + abs(point.x) + abs(point.y) + sum_of_sizes(place) / depth + share * size / z;
+            pad = max(pad, 2.0 * ERROR * rounding + share * stray / z * (1.0 + size / z));
         }
-    }
-    var low = points.at[0];
-    var high = points.at[0];
-    for (var k = 1u; k < 3u * sides; k++) {
-        low = min(low, points.at[k]);
-        high = max(high, points.at[k]);
     }
     let largest = max(abs(low), abs(high)) + pad;
     let slack = SLACK * (1.0 + dot(largest, largest)) + pad;
