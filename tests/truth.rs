@@ -27,6 +27,8 @@ fn scenes() -> Vec<String> {
 /// Graphs that promise exact answers, and how many wrong bits a GPU may have.
 const EXACT: &[&str] = &["hard", "hard_fused"];
 const GPU_SHARE: f64 = 1e-5;
+/// With one light sample an influence region holds all that the footprint does.
+const INFLUENCE: &[&str] = &["hard", "--swap", "conservative_raster=influence"];
 const DRAWN: &[&[&str]] = &[&["hard_draw"], &["hard", "--swap", "conservative_raster=expanded_draw"]];
 
 /// One trial a scene, graph and backend, and the controls.
@@ -40,6 +42,14 @@ pub fn trials() -> Vec<Trial> {
             let name = scene.clone();
             let run = move |_: &_| check(graph, &name, "96x72", "wgpu", GPU_SHARE);
             trials.push(gpu::trial(format!("truth/{graph}/{scene}/wgpu"), run));
+        }
+    }
+    for scene in scenes() {
+        for (backend, size, share) in [("cpu", "160x120", 0.0), ("wgpu", "96x72", GPU_SHARE)] {
+            let name = format!("truth/{}/{scene}/{backend}", INFLUENCE.join("+"));
+            let scene = scene.clone();
+            let run = move || check_words(INFLUENCE, &scene, size, backend, share);
+            trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
         }
     }
     // What only the rasteriser does: casters drawn grown, into the table or straight into the masks.

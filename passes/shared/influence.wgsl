@@ -157,7 +157,9 @@ fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: 
         return region;
     }
     var hull = hull_of_three(&points, sides);
-    for (var k = 0u; k < hull.count; k++) {
+    // More corners than points are doubles by rounding; without a side the region is only larger.
+    let lines = min(hull.count, MOST_POINTS);
+    for (var k = 0u; k < lines; k++) {
         let a = hull.at[k];
         let b = hull.at[select(k + 1u, 0u, k + 1u == hull.count)];
         let n = vec2<f32>(a.y - b.y, b.x - a.x);
@@ -172,6 +174,6 @@ fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: 
             put_line(&region, 4u * PLANE_GROUPS + k, vec3<f32>(n, -least) / size);
         }
     }
-    region.groups = PLANE_GROUPS + (hull.count + 3u) / 4u;
+    region.groups = PLANE_GROUPS + (lines + 3u) / 4u;
     return region;
 }
