@@ -7,6 +7,7 @@ pub mod ports;
 pub mod shared;
 
 pub mod bent_light;
+pub mod bvh_build;
 pub mod caster_fill;
 pub mod casters;
 pub mod combine;
@@ -15,6 +16,7 @@ pub mod light_depth;
 pub mod light_frame;
 pub mod list_build;
 pub mod list_fill;
+pub mod lu_table;
 pub mod present;
 pub mod sample_filter;
 pub mod scan;
@@ -27,7 +29,7 @@ use shadowgraph_core::pass::Catalogue;
 
 /// All passes of this crate, stage by stage in the order of a frame.
 pub fn catalogue() -> Catalogue {
-    let stages: [&[&'static shadowgraph_core::pass::Pass]; 16] = [
+    let stages: [&[&'static shadowgraph_core::pass::Pass]; 18] = [
         view_samples::PASSES,
         sample_filter::PASSES,
         light_frame::PASSES,
@@ -37,6 +39,8 @@ pub fn catalogue() -> Catalogue {
         casters::PASSES,
         conservative_raster::PASSES,
         caster_fill::PASSES,
+        lu_table::PASSES,
+        bvh_build::PASSES,
         visibility::PASSES,
         light_depth::PASSES,
         shadow_lookup::PASSES,

@@ -22,6 +22,11 @@ pub fn verify_args(words: &[&str]) -> VerifyArgs {
 
 /// A scene at a picture size.
 pub fn job(scene: &str, size: &str) -> Job {
-    let args = render_args(&["hard", "--scene", scene, "--size", size]);
+    soft_job(scene, size, "1")
+}
+
+/// The same on so many light samples.
+pub fn soft_job(scene: &str, size: &str, light_samples: &str) -> Job {
+    let args = render_args(&["hard", "--scene", scene, "--size", size, "--light-samples", light_samples]);
     Job::load(&args.scene).unwrap_or_else(|problem| panic!("{scene}: {problem}"))
 }

@@ -1,12 +1,16 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
 mod bench;
+mod closed_form;
 mod contamination;
+mod device_raster;
 mod docs;
 mod gpu;
 mod graphs;
 mod pairs;
 mod program;
+mod ranges;
+mod shading;
 mod suite;
 mod tidy;
 mod truth;
@@ -27,7 +31,11 @@ fn main() -> ExitCode {
     trials.extend(twins::trials());
     trials.extend(pairs::trials());
     trials.extend(contamination::trials());
+    trials.extend(ranges::trials());
+    trials.extend(device_raster::trials());
     trials.extend(truth::trials());
+    trials.extend(closed_form::trials());
+    trials.extend(shading::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

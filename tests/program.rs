@@ -112,9 +112,13 @@ fn check() -> Result<(), Failed> {
         "hard_draw",
         "shadow_map",
         "pcf",
+        "pcss",
+        "multi_shadow_map",
         "rays",
+        "rays_soft",
         "truth_hard",
         "truth_soft",
+        "soft_shafts",
     ])?)
 }
 

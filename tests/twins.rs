@@ -1,12 +1,13 @@
 //! CPU function against GPU recipe, node by node on equal inputs: a graph runs on the CPU with every value kept, then each node's
 //! recipe runs on the values its CPU function read, and the outputs are compared as the pass's contract says.
 
-use crate::bench::{job, render_args};
+use crate::bench::{render_args, soft_job};
 use crate::gpu;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::BackendChoice;
 use shadowgraph::engine::Machine;
 use shadowgraph::graph_choice;
+use shadowgraph::job::Job;
 use shadowgraph_core::array::{Array, Element};
 use shadowgraph_core::pass::Contract;
 use shadowgraph_core::plan::{Backend, Node};
@@ -27,6 +28,10 @@ const GRAPHS: &[(&str, &[&str])] = &[
     ("pcf", &[]),
 ];
 
+/// The same for passes that tell light samples apart: they run on this many.
+const SOFT: &[(&str, &[&str], &str)] =
+    &[("truth_soft", &["combine=weighted", "bent_light=bounding_box", "shade=full_sum"], "40")];
+
 const SCENES: &[(&str, &str)] = &[
     ("builtin:columns", "65x63"),
     ("builtin:random-triangles?count=3000", "130x97"),
@@ -37,20 +42,20 @@ const SCENES: &[(&str, &str)] = &[
 /// A trial a graph and scene.
 pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
-    for (graph, swaps) in GRAPHS {
+    let hard = GRAPHS.iter().map(|(graph, swaps)| (*graph, *swaps, "1"));
+    for (graph, swaps, samples) in hard.chain(SOFT.iter().copied()) {
         for (scene, size) in SCENES {
             let name = format!(
                 "twins/{graph}{}/{scene}@{size}",
                 swaps.iter().map(|swap| format!("+{swap}")).collect::<String>()
             );
-            trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, scene, size)));
+            trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, &soft_job(scene, size, samples))));
         }
     }
     trials
 }
 
-fn twins(session: &Session, graph: &str, swaps: &[&str], scene: &str, size: &str) -> Result<(), Failed> {
-    let job = job(scene, size);
+fn twins(session: &Session, graph: &str, swaps: &[&str], job: &Job) -> Result<(), Failed> {
     let words: Vec<String> = std::iter::once(graph.to_string())
         .chain(swaps.iter().flat_map(|swap| ["--swap".to_string(), swap.to_string()]))
         .collect();
@@ -60,7 +65,7 @@ fn twins(session: &Session, graph: &str, swaps: &[&str], scene: &str, size: &str
     let plan = graph_choice::plan(&choice, &catalogue, Some(&job.facts), Backend::Cpu, Keep::AllLivePorts)
         .map_err(|problems| problems.to_string())?;
     let machine = Machine::new(BackendChoice::Cpu).map_err(|problem| problem.to_string())?;
-    let outcome = machine.run(&plan, &job, 1, &|_, _, _| {}).map_err(|problem| problem.to_string())?;
+    let outcome = machine.run(&plan, job, 1, &|_, _, _| {}).map_err(|problem| problem.to_string())?;
     let mut faults = Vec::new();
     for node in plan.nodes.iter().filter(|node| node.pass.gpu.is_some()) {
         let inputs: Vec<_> =

@@ -52,10 +52,10 @@ fn light_dot(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// The face whose axis the point lies furthest along, and its coordinates there.
-fn light_project(position: vec3<f32>, face_count: u32) -> LightPoint {
-    var best = LightPoint(0u, 0.0, 0.0, 0.0);
-    for (var face = 0u; face < face_count; face++) {
+// The one of `count` faces from `first` on whose axis the point lies furthest along, and its coordinates there.
+fn light_project_from(position: vec3<f32>, first: u32, count: u32) -> LightPoint {
+    var best = LightPoint(first, 0.0, 0.0, 0.0);
+    for (var face = first; face < first + count; face++) {
         let depth = light_dot(light_axis_z(face), position - light_origin(face));
         if depth > best.depth {
             best.face = face;
@@ -68,6 +68,11 @@ fn light_project(position: vec3<f32>, face_count: u32) -> LightPoint {
         best.v = light_dot(light_axis_y(best.face), offset) / best.depth;
     }
     return best;
+}
+
+// The same among all faces.
+fn light_project(position: vec3<f32>, face_count: u32) -> LightPoint {
+    return light_project_from(position, 0u, face_count);
 }
 
 // Column and row of (u, v) in a window of side x side texels, clamped: border texels reach to infinity.

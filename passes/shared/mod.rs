@@ -1,5 +1,7 @@
 //! Code and WGSL pieces that several passes are made of.
 
+#[cfg(test)]
+pub mod area_light_scenes;
 pub mod atomic_words;
 pub mod bvh;
 pub mod camera;
@@ -13,8 +15,13 @@ pub mod hard_scenes;
 pub mod hull;
 pub mod influence;
 pub mod light_bound;
+pub mod light_box;
 pub mod light_fit;
 pub mod light_frame;
+pub mod light_sides;
+pub mod lu;
+pub mod lu_fill;
+pub mod lu_record;
 pub mod packed;
 pub mod pair_walk;
 pub mod pair_walk_gpu;
@@ -30,6 +37,10 @@ pub mod shadow_lookup;
 pub mod shadow_map;
 pub mod shadow_raster;
 pub mod share;
+pub mod soft;
+pub mod soft_record;
 #[cfg(any(test, feature = "random_scenes"))]
 pub mod soft_scenes;
 pub mod table_fill;
+pub mod threaded;
+pub mod view_planes;

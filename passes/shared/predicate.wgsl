@@ -55,17 +55,20 @@ fn wide_sum(a: Wide3, b: Wide3) -> Wide3 {
     return ordered_sum(sum.high, sum.low + low.low);
 }
 
-// Sign of det(a - d, b - d, c - d): -1, 0 or 1.
-fn orientation(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>) -> f32 {
-    let p = exact_sum(a, -d);
-    let q = exact_sum(b, -d);
-    let r = exact_sum(c, -d);
+// det(p, q, r) as high + low, to about 2^-44 of its terms.
+fn determinant(p: Wide3, q: Wide3, r: Wide3) -> vec2<f32> {
     let left = wide_product(Wide3(q.high.yzx, q.low.yzx), Wide3(r.high.zxy, r.low.zxy));
     let right = wide_product(Wide3(q.high.zxy, q.low.zxy), Wide3(r.high.yzx, r.low.yzx));
     let terms = wide_product(p, wide_sum(left, Wide3(-right.high, -right.low)));
     let two = wide_sum(terms, Wide3(terms.high.yzx, terms.low.yzx));
     let all = wide_sum(two, Wide3(terms.high.zxy, terms.low.zxy));
-    return select(sign(all.high.x), sign(all.low.x), all.high.x == 0.0);
+    return vec2<f32>(all.high.x, all.low.x);
+}
+
+// Sign of det(a - d, b - d, c - d): -1, 0 or 1.
+fn orientation(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>) -> f32 {
+    let all = determinant(exact_sum(a, -d), exact_sum(b, -d), exact_sum(c, -d));
+    return select(sign(all.x), sign(all.y), all.x == 0.0);
 }
 
 fn triangle_corner(triangle: u32, corner: u32) -> vec3<f32> {

@@ -7,6 +7,9 @@
 //! linear over a triangle in the map; 1 means that nothing was seen. [`step`] is what two units in the last place of
 //! d near 1 are in scene units: `w^2 / near` 2^-23, at w = far some 1.2e-4 of far.
 
+use shadowgraph_core::problem::{Kind, Problem};
+use shadowgraph_core::record::GpuCx;
+
 /// The map's declarations and readers in WGSL, joined after `light_frame::WGSL`.
 pub const WGSL: &str = include_str!("shadow_map.wgsl");
 
@@ -37,6 +40,22 @@ pub fn linear_from_depth(depth: f32, far: f32) -> f32 {
 #[inline]
 pub fn step(w: f32, far: f32) -> f32 {
     w * w / (far * NEAR_SHARE) * (1.0 / (1 << 23) as f32)
+}
+
+/// The side that the parameter called `name` gives, if the device has textures of that size.
+///
+/// # Errors
+/// A side above the device's limit.
+pub fn side_on_device(cx: &GpuCx, name: &'static str) -> Result<u32, Problem> {
+    let (side, limit) = (cx.params().u32(name), cx.limits().texture_side);
+    if side > limit {
+        return Err(Problem::new(Kind::Unsupported, "the shadow map is larger than the device's largest texture")
+            .port(name)
+            .expected(format!("at most {limit}"))
+            .found(side.to_string())
+            .remedy("set a smaller size, or `on: Cpu` for this node"));
+    }
+    Ok(side)
 }
 
 #[cfg(test)]

@@ -4,7 +4,13 @@ pub mod bvh_rays;
 pub mod exact;
 pub mod fused;
 pub mod fused_draw;
+pub mod half_planes;
+pub mod lu;
+pub mod lu_certain;
+pub mod lu_planar;
+pub mod multi_shadow_map;
 pub mod planes;
+pub mod shafts;
 
 use crate::ports;
 use shadowgraph_core::input;
@@ -21,6 +27,7 @@ pub static STAGE: Stage = Stage {
         input::LIGHT_SAMPLES.read(),
         ports::LIGHT_FRAME.read(),
         ports::POSITION.read(),
+        ports::NORMAL.read(),
         ports::TRIANGLE.read(),
         ports::SAMPLE_STATE.read(),
         ports::CELL.read(),
@@ -30,9 +37,25 @@ pub static STAGE: Stage = Stage {
         ports::LIST_ENTRIES.read(),
         ports::OFFSET.read().named("caster_offset"),
         ports::CASTER_ENTRIES.read(),
+        ports::LU.optional(),
+        ports::LU_LAYOUT.optional(),
+        ports::BVH_NODES.optional(),
+        ports::BVH_ORDER.optional(),
         ports::MASK,
     ],
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS];
+pub const PASSES: &[&Pass] = &[
+    &planes::PASS,
+    &fused::PASS,
+    &fused_draw::PASS,
+    &exact::PASS,
+    &bvh_rays::PASS,
+    &half_planes::PASS,
+    &shafts::PASS,
+    &lu::PASS,
+    &lu_planar::PASS,
+    &lu_certain::PASS,
+    &multi_shadow_map::PASS,
+];

@@ -3,6 +3,7 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shadowgraph_core::param::Params;
 use shadowgraph_core::pass::Pass;
+use shadowgraph_core::port::Port;
 use shadowgraph_core::record::{Command, DeviceLimits, GpuCx, Shader};
 use shadowgraph_core::size::SizeCx;
 
@@ -16,9 +17,26 @@ pub fn every_recipe_validates() -> Vec<String> {
     faults
 }
 
+/// Last two dimensions of look-up tables: a pass reads one of them and refuses the others.
+const TABLES: [[usize; 2]; 3] = [[8, 4], [8, 8], [1, 4]];
+
 fn faults_of(pass: &'static Pass) -> Vec<String> {
+    let reads_table = pass.reads().any(|port| port.name == "lu");
+    let tables = if reads_table { &TABLES[..] } else { &TABLES[..1] };
+    let of_tables: Vec<_> = tables.iter().map(|table| faults_with(pass, *table)).collect();
+    of_tables.into_iter().min_by_key(Vec::len).unwrap_or_default()
+}
+
+fn faults_with(pass: &'static Pass, table: [usize; 2]) -> Vec<String> {
     let params = Params::defaults(pass.params);
-    let mut shapes: Vec<_> = pass.reads().map(|port| (port.name, tiny(port.shape))).collect();
+    let shape = |port: &Port| {
+        let mut shape = tiny(port.shape);
+        if port.name == "lu" {
+            shape[3..].copy_from_slice(&table);
+        }
+        (port.name, shape)
+    };
+    let mut shapes: Vec<_> = pass.reads().map(shape).collect();
     let cx = SizeCx { image: IMAGE, params: &params, inputs: &shapes, grown: &[] };
     let outputs = (pass.size)(&cx);
     shapes.extend(outputs);
@@ -46,7 +64,7 @@ fn faults_of(pass: &'static Pass) -> Vec<String> {
 fn tiny(shape: &str) -> Vec<usize> {
     let side = |symbol: &str| match symbol {
         "P" | "H" | "W" => 8,
-        "F" | "L" | "M" => 1,
+        "F" | "L" | "M" | "K" => 1,
         "S" | "D" => 4,
         "C+1" => 17,
         other => other.parse().unwrap_or(8),

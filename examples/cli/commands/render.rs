@@ -1,6 +1,7 @@
 //! `shadowgraph render`.
 
 use crate::args::RenderArgs;
+use crate::converged::converged;
 use crate::engine::Machine;
 use crate::job::Job;
 use crate::record::RunRecord;
@@ -15,13 +16,25 @@ use shadowgraph_graph::Keep;
 /// # Errors
 /// What is wrong with scene, graph or flags; what a node reports.
 pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems> {
-    let job = Job::load(&args.scene)?;
-    let mut machine = Machine::new(args.run.backend)?;
+    let mut job = Job::load(&args.scene.for_graph(graph_choice::light_samples(&args.graph)?))?;
+    let mut machine = Machine::new(args.run.backend)?.in_ranges(args.run.ranges);
     let keep = if args.dump.is_some() { Keep::AllLivePorts } else { Keep::OutputsOnly };
     let plan = graph_choice::plan(&args.graph, catalogue, Some(&job.facts), machine.default_backend, keep)?;
     machine.ready_for(&plan)?;
     let bar = Bar::new(args.run.quiet);
-    let outcome = machine.run(&plan, &job, args.run.repeat, &|node, done, total| bar.set(node, done, total))?;
+    let progress = |node: &str, done, total| bar.set(node, done, total);
+    let outcome = match args.light_sets {
+        None => machine.run(&plan, &job, args.run.repeat, &progress)?,
+        Some(sets) => {
+            let outcome = converged(&machine, &plan, &job, sets as usize, &progress)?;
+            job.notes.push(format!(
+                "a mean over {sets} disjoint sets of {} light samples, one run each: {} in all",
+                job.samples.len(),
+                sets as usize * job.samples.len()
+            ));
+            outcome
+        }
+    };
     drop(bar);
     let record = RunRecord::new(&plan, &job, machine.record(), &outcome);
     let mut text = if args.run.json {
@@ -44,6 +57,11 @@ pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems
         wrote.push(format!("wrote {} and {}", png.display(), exr.display()));
     }
     if let Some(folder) = &args.dump {
+        if job.sets.len() > 1 {
+            return Err(crate::usage_problem("a dump holds one sample set, but pixels have sets of their own")
+                .remedy("use --dump with --jitter none")
+                .into());
+        }
         let count = dump::write(folder, &plan, &job.inputs(), &outcome)?;
         wrote.push(format!("wrote {count} arrays to {}", folder.display()));
     }

@@ -1,0 +1,25 @@
+// Joined after lu.wgsl.
+
+// The AND of what the table has for the planes that cut the light.
+fn hidden_block(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, block: u32, receiver: Receiver, light: Light) -> Found {
+    let winding = winding_of(pair, a, b, c, receiver);
+    var hidden = select(vec4<u32>(0u), vec4<u32>(0xffffffffu), winding != 0.0);
+    for (var k = 0u; k < 4u; k++) {
+        if !pair.cut[k] && pair.winding != 0.0 {
+            continue;
+        }
+        let plane = ordered_plane(k, winding, a, b, c, receiver, light);
+        let size = length(plane.normal);
+        let reach = size * lu_layout[3];
+        let side = whole_side(plane, reach);
+        if side != 0.0 {
+            hidden = select(hidden, vec4<u32>(0u), side < 0.0);
+            continue;
+        }
+        let row = direction_row(plane.normal / size);
+        let bin = row * lu_size + bin_of(0.5 + 0.5 * plane.constant / reach);
+        let bits = lu[block * lu_size * lu_size * lu_size + bin];
+        hidden &= select(bits, ~bits, plane.is_turned);
+    }
+    return Found(hidden, false);
+}

@@ -1,0 +1,28 @@
+// Joined after lu.wgsl.
+
+fn axis(start: u32) -> vec3<f32> {
+    return vec3<f32>(lu_layout[start], lu_layout[start + 1u], lu_layout[start + 2u]);
+}
+
+// The AND of what the table has for the lines in which the planes meet the light's.
+fn hidden_block(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, block: u32, receiver: Receiver, light: Light) -> Found {
+    let winding = winding_of(pair, a, b, c, receiver);
+    var hidden = select(vec4<u32>(0u), vec4<u32>(0xffffffffu), winding != 0.0);
+    for (var k = 0u; k < 4u; k++) {
+        if !pair.cut[k] && pair.winding != 0.0 {
+            continue;
+        }
+        let plane = ordered_plane(k, winding, a, b, c, receiver, light);
+        let line = vec2<f32>(dot(plane.normal, axis(4u)), dot(plane.normal, axis(8u)));
+        let reach = length(line) * lu_layout[3];
+        let side = whole_side(plane, reach);
+        if side != 0.0 {
+            hidden = select(hidden, vec4<u32>(0u), side < 0.0);
+            continue;
+        }
+        let row = bin_of(angle(line.y, line.x) / (2.0 * PI) + 0.5);
+        let bits = lu[(block * lu_size + row) * lu_size + bin_of(0.5 + 0.5 * plane.constant / reach)];
+        hidden &= select(bits, ~bits, plane.is_turned);
+    }
+    return Found(hidden, false);
+}
