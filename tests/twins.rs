@@ -24,6 +24,7 @@ const GRAPHS: &[(&str, &[&str])] = &[
         &["list_build=sort", "list_scan=serial", "casters=light_back_facing", "light_frame=whole", "sample_filter=all"],
     ),
     ("hard", &["visibility=fused", "light_frame=six_faces", "combine=threshold", "bent_light=own_face", "shade=phong"]),
+    ("hard", &["conservative_raster=influence"]),
     ("shadow_map", &["light_depth=second_surface"]),
     ("pcf", &[]),
     ("soft", &[]),
@@ -111,7 +112,7 @@ fn node_faults(node: &Node, inputs: Named, cpu: &[(&'static str, &Array)], gpu: 
         "list_build" => list_faults(port("cell"), port("slot"), port("list_length"), twin("cell")),
         "list_fill" => sets_faults(inputs, "list_offset", twin("list_entries"), port("list_entries")),
         "caster_fill" => sets_faults(inputs, "caster_offset", twin("caster_entries"), port("caster_entries")),
-        // Judged by the masks that come of it: `truth` holds that nothing that matters is missing.
+        // Judged by the masks that come of it: `truth` and `pairs` hold that nothing that matters is missing.
         "conservative_raster" => Vec::new(),
         _ => cpu
             .iter()
