@@ -108,7 +108,7 @@ impl Machine {
         let mut outcome = Outcome { runs_count: repeat, ..Outcome::new(plan) };
         let (rounds, warm_ups) = if shadowgraph_cpu::runs_all(plan) { (repeat, u32::from(repeat > 1)) } else { (1, 0) };
         let ranges = Ranges::of(plan, job.sets.len() > 1);
-        let count = self.range_count(plan, &ranges, &inputs, job.image)?;
+        let count = self.range_count(plan, &ranges, &inputs, job)?;
         let how = How { machine: self, job, repeat, progress };
         for round in 0..rounds + warm_ups {
             let mut store = Store::new(plan);
@@ -127,18 +127,24 @@ impl Machine {
         Ok(outcome)
     }
 
-    /// Ranges of view-samples to run in.
+    /// Ranges of view-samples, of each sample set where there are several, to run in.
     fn range_count(
         &self,
         plan: &Plan,
         ranges: &Ranges,
         inputs: &[(String, Array)],
-        image: [usize; 2],
+        job: &Job,
     ) -> Result<usize, Problem> {
         let Some(session) = self.session.filter(|_| self.ranges == 0) else { return Ok(self.ranges.max(1)) };
-        let shapes: Vec<_> = inputs.iter().map(|(name, array)| (name.clone(), array.shape().to_vec())).collect();
-        let shapes = plan.shapes(&shapes, image, &Grown::new())?;
-        Ok(ranges.needed(plan, &shapes, session.device().limits().max_storage_buffer_binding_size))
+        let of_set = job.set_inputs(0);
+        let shape = |(name, array): &(String, Array)| {
+            let array = of_set.iter().find(|(input, _)| input == name).map_or(array, |(_, array)| array);
+            (name.clone(), array.shape().to_vec())
+        };
+        let shapes = plan.shapes(&inputs.iter().map(shape).collect::<Vec<_>>(), job.image, &Grown::new())?;
+        let most_bytes = session.device().limits().max_storage_buffer_binding_size;
+        // Every set has about as many pixels as another.
+        Ok(ranges.needed(plan, &shapes, most_bytes.saturating_mul(job.sets.len() as u64)))
     }
 
     fn run_wgpu(&self, plan: &Plan, range: Range<usize>, image: [usize; 2], store: &mut Store, repeat: u32) -> Stretch {

@@ -43,20 +43,19 @@ pub fn sets(
     sampling: &Sampling,
     base: &LightSamples,
 ) -> Result<Vec<LightSamples>, Problem> {
-    if jitter != Jitter::None && !SIDES.contains(&side) {
+    if jitter == Jitter::None {
+        return Ok(vec![base.clone()]);
+    }
+    if !SIDES.contains(&side) {
         return Err(usage_problem("--jitter-side is no pattern").expected("2, 4 or 8 pixels").found(side.to_string()));
     }
     let count = (side * side) as usize;
     let set = |index: usize| match jitter {
-        Jitter::None => Ok(base.clone()),
         Jitter::Turn => Ok(LightSamples { positions: turned(light, &base.positions, index, count)?, ..base.clone() }),
-        Jitter::Seed if index == 0 => Ok(base.clone()),
-        Jitter::Seed => sample(light, &Sampling { seed: sampling.seed.wrapping_add(index as u32), ..*sampling }),
+        _ if index == 0 => Ok(base.clone()),
+        _ => sample(light, &Sampling { seed: sampling.seed.wrapping_add(index as u32), ..*sampling }),
     };
-    match jitter {
-        Jitter::None => Ok(vec![base.clone()]),
-        _ => (0..count).map(set).collect(),
-    }
+    (0..count).map(set).collect()
 }
 
 #[cfg(test)]

@@ -67,14 +67,21 @@ impl Ranges {
         matches!(plan.slots[slot].producer, Producer::Node(node) if self.is_ranged[node])
     }
 
-    /// How many ranges it takes for every row-wise value that a ranged wgpu node makes to stay within `most_bytes`.
+    /// How many ranges it takes for every row-wise value that a ranged wgpu node makes, and its scratch, to stay within `most_bytes`.
     pub fn needed(&self, plan: &Plan, shapes: &Shapes, most_bytes: u64) -> usize {
         let made = (0..plan.slots.len()).filter(|slot| plan.slots[*slot].on[1] && self.makes(plan, *slot));
         let rows = made.filter(|slot| is_rows(&plan.slots[*slot].port));
-        let bytes = rows.map(|slot| 4 * shapes.0[slot].iter().product::<usize>() as u64);
-        bytes.map(|bytes| bytes.div_ceil(most_bytes.max(1)) as usize).max().unwrap_or(1).max(1)
+        let bytes = |slot: SlotId| {
+            let shape = &shapes.0[slot];
+            let value = 4 * shape.iter().product::<usize>() as u64;
+            (value + value / 2).max(SCRATCH_BYTES * shape.first().copied().unwrap_or(0) as u64)
+        };
+        rows.map(|slot| bytes(slot).div_ceil(most_bytes.max(1)) as usize).max().unwrap_or(1).max(1)
     }
 }
+
+/// Scratch that recipes keep for a row, at least; queues of masks take up to half of a mask more than the mask.
+const SCRATCH_BYTES: u64 = 24;
 
 /// `rows` rows in `count` nearly equal ranges; at least one, possibly empty.
 pub fn split(rows: usize, count: usize) -> Vec<Range<usize>> {

@@ -7,7 +7,7 @@ use crate::frames::Frames;
 use crate::job::Job;
 use crate::record::RunRecord;
 use crate::report::{Bar, run_text};
-use crate::{dump, file_problem, graph_choice, picture};
+use crate::{dump, file_problem, graph_choice, picture, usage_problem};
 use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::problem::{Kind, Problem, Problems};
 use shadowgraph_graph::Keep;
@@ -18,6 +18,16 @@ use shadowgraph_graph::Keep;
 /// What is wrong with scene, graph or flags; what a node reports.
 pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems> {
     let mut job = Job::load(&args.scene.for_graph(graph_choice::light_samples(&args.graph)?))?;
+    if job.sets.len() > 1 {
+        let one_set = [("--dump", args.dump.is_some()), ("--light-sets", args.light_sets.is_some())];
+        if let Some((flag, _)) = one_set.iter().find(|(_, given)| *given) {
+            return Err(usage_problem(format!(
+                "{flag} is of one sample set, but jittered pixels have sets of their own"
+            ))
+            .remedy(format!("use {flag} with --jitter none"))
+            .into());
+        }
+    }
     let mut machine = Machine::new(args.run.backend)?.in_ranges(args.run.ranges);
     let keep = if args.dump.is_some() { Keep::AllLivePorts } else { Keep::OutputsOnly };
     let plan = graph_choice::plan(&args.graph, catalogue, Some(&job.facts), machine.default_backend, keep)?;
@@ -32,7 +42,7 @@ pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems
                 let named = |node: &str, done, total| progress(&format!("frame {}: {node}", frame + 1), done, total);
                 accumulated.add(machine.run(&plan, &job.in_frame(frame)?, 1, &named)?, job.standing());
             }
-            let samples = job.samples.len();
+            let samples = job.light_samples_count();
             job.notes.push(format!("a mean over {frames} frames, each with {samples} light samples of its own"));
             accumulated.finish()
         }
@@ -40,8 +50,8 @@ pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems
             let outcome = converged(&machine, &plan, &job, sets as usize, &progress)?;
             job.notes.push(format!(
                 "a mean over {sets} disjoint sets of {} light samples, one run each: {} in all",
-                job.samples.len(),
-                sets as usize * job.samples.len()
+                job.light_samples_count(),
+                sets as usize * job.light_samples_count()
             ));
             outcome
         }
@@ -68,13 +78,14 @@ pub fn text(catalogue: &Catalogue, args: &RenderArgs) -> Result<String, Problems
         wrote.push(format!("wrote {} and {}", png.display(), exr.display()));
     }
     if let Some(folder) = &args.dump {
-        if job.sets.len() > 1 {
-            return Err(crate::usage_problem("a dump holds one sample set, but pixels have sets of their own")
-                .remedy("use --dump with --jitter none")
-                .into());
+        let dump::Written { arrays_count, left_out } = dump::write(folder, &plan, &job.inputs(), &outcome)?;
+        wrote.push(format!("wrote {arrays_count} arrays to {}", folder.display()));
+        if !left_out.is_empty() {
+            let left_out = left_out.join(", ");
+            wrote.push(format!(
+                "left out, as every range of view-samples has its own (--ranges 1 keeps one): {left_out}"
+            ));
         }
-        let count = dump::write(folder, &plan, &job.inputs(), &outcome)?;
-        wrote.push(format!("wrote {count} arrays to {}", folder.display()));
     }
     if !args.run.json && !wrote.is_empty() {
         text.push_str(&(wrote.join("\n") + "\n"));
