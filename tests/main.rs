@@ -1,5 +1,7 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
+mod area_lights;
+mod baselines;
 mod bench;
 mod closed_form;
 mod contamination;
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
     trials.extend(twins::controls());
     trials.extend(twins::trials());
     trials.extend(pairs::trials());
+    trials.extend(area_lights::trials());
     trials.extend(contamination::trials());
     trials.extend(ranges::trials());
     trials.extend(device_raster::trials());
@@ -38,6 +41,7 @@ fn main() -> ExitCode {
     trials.extend(closed_form::trials());
     trials.extend(shading::trials());
     trials.extend(frames::trials());
+    trials.extend(baselines::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

@@ -17,7 +17,24 @@ pub fn trials() -> Vec<Trial> {
         Trial::test("program/a_soft_graph_has_its_light_samples_without_flags", light_samples),
         Trial::test("program/the_light_is_what_its_flags_say_in_record_and_dump", light),
         Trial::test("program/light_flags_that_do_not_fit_are_problems", wrong_light),
+        Trial::test("program/sets_of_light_samples_are_averaged", light_sets),
     ]
+}
+
+/// The mean over sets keeps view-samples and visible shares and has no mask; its record says what it is.
+fn light_sets() -> Result<(), Failed> {
+    let (_keep, out) = folder()?;
+    let scene = ["render", "truth_soft", "--scene", "builtin:half-plane", "--backend", "cpu", "--size", "40x30"];
+    let sets = ["--light-samples", "32", "--light-sets", "4", "--dump", &out];
+    let output = program(&[&scene[..], &sets].concat())?;
+    succeeded(&output)?;
+    assert!(stdout(&output).contains("4 disjoint sets of 32 light samples"), "{}", stdout(&output));
+    let index = std::fs::read_to_string(PathBuf::from(&out).join("index.json")).map_err(|error| error.to_string())?;
+    assert_eq!(shape_of(&index, "view_samples.position.npy")?[0], shape_of(&index, "combine.visible.npy")?[0]);
+    assert!(shape_of(&index, "visibility.mask.npy").is_err(), "masks differ from set to set");
+    let repeated = program(&["render", "truth_soft", "--light-sets", "4", "--repeat", "2"])?;
+    assert!(!repeated.status.success() && stderr(&repeated).contains("--repeat"), "{}", stderr(&repeated));
+    Ok(())
 }
 
 /// The program, built by this test run.

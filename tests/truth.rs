@@ -1,10 +1,12 @@
 //! Hard shadows against exact predicates on the built-in failure scenes: no wrong bit on the CPU, at most one in 1e5 on a GPU.
 
-use crate::bench::{job, verify_args};
+use crate::bench::{job, job_lit, verify_args};
 use crate::gpu;
 use libtest_mimic::{Failed, Trial};
-use shadowgraph::commands::verify::verify;
+use shadowgraph::args::VerifyArgs;
+use shadowgraph::commands::verify::{Row, verify};
 use shadowgraph::engine::Machine;
+use shadowgraph::job::Job;
 
 /// Parameters that keep heavy scenes quick; every other built-in scene runs as it is.
 const LIGHTER: &[(&str, &str)] = &[
@@ -27,6 +29,12 @@ fn scenes() -> Vec<String> {
 /// Graphs that promise exact answers, and how many wrong bits a GPU may have.
 const EXACT: &[&str] = &["hard", "hard_fused"];
 const GPU_SHARE: f64 = 1e-5;
+/// The same for area lights, every light sample a bit.
+const EXACT_SOFT: &[&str] = &["soft", "soft_certain"];
+/// Light of the scenes for them: two words of samples, and wide.
+const AREA_LIGHT: &[&str] = &["--light-samples", "40", "--light-radius", "0.3"];
+/// With one light sample an influence region holds all that the footprint does.
+const INFLUENCE: &[&str] = &["hard", "--swap", "conservative_raster=influence"];
 const DRAWN: &[&[&str]] = &[&["hard_draw"], &["hard", "--swap", "conservative_raster=expanded_draw"]];
 
 /// One trial a scene, graph and backend, and the controls.
@@ -40,6 +48,22 @@ pub fn trials() -> Vec<Trial> {
             let name = scene.clone();
             let run = move |_: &_| check(graph, &name, "96x72", "wgpu", GPU_SHARE);
             trials.push(gpu::trial(format!("truth/{graph}/{scene}/wgpu"), run));
+        }
+    }
+    for scene in scenes() {
+        for graph in EXACT_SOFT {
+            for (backend, size, share) in [("cpu", "64x48", 0.0), ("wgpu", "40x30", GPU_SHARE)] {
+                let scene = scene.clone();
+                let name = format!("truth/{graph}/{scene}/{backend}");
+                let run = move || check_soft(graph, &scene, size, backend, share);
+                trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
+            }
+        }
+        for (backend, size, share) in [("cpu", "160x120", 0.0), ("wgpu", "96x72", GPU_SHARE)] {
+            let name = format!("truth/{}/{scene}/{backend}", INFLUENCE.join("+"));
+            let scene = scene.clone();
+            let run = move || check_words(INFLUENCE, &scene, size, backend, share);
+            trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
         }
     }
     // What only the rasteriser does: casters drawn grown, into the table or straight into the masks.
@@ -75,9 +99,20 @@ fn check(graph: &str, scene: &str, size: &str, backend: &str, share: f64) -> Res
     check_words(&[graph], scene, size, backend, share)
 }
 
+fn check_soft(graph: &str, scene: &str, size: &str, backend: &str, share: f64) -> Result<(), Failed> {
+    let words =
+        [&[graph, "--truth", "truth_soft", "--backend", backend, "--size", size, "--quiet"], AREA_LIGHT].concat();
+    let args = verify_args(&words);
+    let job = job_lit(&format!("builtin:{scene}"), size, AREA_LIGHT);
+    judge(&row_of(&args, &job)?, share)
+}
+
 fn check_words(words: &[&str], scene: &str, size: &str, backend: &str, share: f64) -> Result<(), Failed> {
     let args = verify_args(&[words, &["--backend", backend, "--size", size, "--quiet"]].concat());
-    let row = row(&args, &format!("builtin:{scene}"), size)?;
+    judge(&row(&args, &format!("builtin:{scene}"), size)?, share)
+}
+
+fn judge(row: &Row, share: f64) -> Result<(), Failed> {
     let verdict = &row.verdict;
     // One wrong bit on a small picture is more than the share of any large one: one is let pass on a GPU.
     let allowed = if share > 0.0 { (share * verdict.all.bits_count as f64).max(1.0) as u64 } else { 0 };
@@ -93,13 +128,12 @@ fn check_words(words: &[&str], scene: &str, size: &str, backend: &str, share: f6
     .into())
 }
 
-fn row(
-    args: &shadowgraph::args::VerifyArgs,
-    scene: &str,
-    size: &str,
-) -> Result<shadowgraph::commands::verify::Row, Failed> {
-    let job = job(scene, size);
+fn row(args: &VerifyArgs, scene: &str, size: &str) -> Result<Row, Failed> {
+    row_of(args, &job(scene, size))
+}
+
+fn row_of(args: &VerifyArgs, job: &Job) -> Result<Row, Failed> {
     let mut machine = Machine::new(args.run.backend).map_err(|problem| problem.to_string())?;
     let catalogue = shadowgraph_passes::catalogue();
-    verify(&catalogue, args, &mut machine, String::new(), &job).map_err(|problems| problems.to_string().into())
+    verify(&catalogue, args, &mut machine, String::new(), job).map_err(|problems| problems.to_string().into())
 }

@@ -20,8 +20,8 @@ use shadowgraph_cpu::Progress;
 /// Quantities that have a mean over light samples.
 pub(crate) const MEANS: &[&str] = &["radiance", "fraction", "light_share"];
 
-/// Runs `plan`, made for `job`, on `sets` disjoint sets of as many light samples as the job has. Times are those of the runs, one
-/// a set.
+/// Runs `plan`, made for `job`, on `sets` disjoint sets of as many light samples as the job has. Times are
+/// those of all sets together.
 ///
 /// # Errors
 /// The light cannot be sampled so often; what a node reports.
@@ -40,7 +40,7 @@ pub fn converged(
         for (slot, kept) in kept.iter_mut().enumerate() {
             kept.add(plan.slots[slot].port.quantity, one.values.take(slot), index);
         }
-        outcome.append_times(one);
+        outcome.add_run(one);
     }
     for (slot, kept) in kept.into_iter().enumerate() {
         if let Some(array) = kept.value() {

@@ -38,13 +38,24 @@ impl Outcome {
         }
     }
 
-    /// Adds the times of another run of the same plan; bytes and counts are the last run's.
+    /// Adds the times of a further run of the same plan; bytes and counts are the last run's.
     pub fn append_times(&mut self, other: Self) {
         self.frames_millis.extend(other.frames_millis);
         self.runs_count += other.runs_count;
         for (node, mut other) in self.nodes.iter_mut().zip(other.nodes) {
             let mut millis = std::mem::take(&mut node.millis);
             millis.append(&mut other.millis);
+            *node = NodeRecord { millis, ..other };
+        }
+    }
+
+    /// Takes another run of the same plan for a further part of this one: times add up, bytes and counts are the last run's.
+    pub fn add_run(&mut self, other: Self) {
+        let sum = |times: &[f64], more: &[f64]| vec![times.iter().chain(more).sum()];
+        self.frames_millis = sum(&self.frames_millis, &other.frames_millis);
+        self.runs_count = 1;
+        for (node, other) in self.nodes.iter_mut().zip(other.nodes) {
+            let millis = sum(&node.millis, &other.millis);
             *node = NodeRecord { millis, ..other };
         }
     }

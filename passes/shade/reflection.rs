@@ -37,10 +37,11 @@ impl Reflection {
     /// the highlight seen from the unit direction `toward_eye`. Zeros where the light is behind.
     pub fn terms(&self, n: Vec3, l: Vec3, toward_eye: Vec3) -> [f32; 2] {
         let cosine = n.dot(l);
-        if !(cosine > 0.0) {
-            return [0.0, 0.0];
+        if cosine > 0.0 {
+            let mirrored = 2.0 * cosine * n - l;
+            [cosine, self.specular * mirrored.dot(toward_eye).max(0.0).powf(self.shininess)]
+        } else {
+            [0.0, 0.0]
         }
-        let mirrored = 2.0 * cosine * n - l;
-        [cosine, self.specular * mirrored.dot(toward_eye).max(0.0).powf(self.shininess)]
     }
 }

@@ -30,7 +30,8 @@ fn lookup_write(row: u32, kernel: u32) {
     if state == KEPT {
         let at = vec3<f32>(position[3u * row], position[3u * row + 1u], position[3u * row + 2u]);
         let n = vec3<f32>(normal[3u * row], normal[3u * row + 1u], normal[3u * row + 2u]);
-        share = lookup_visible(at, n, 0u, 0u, kernel);
+        let placed = lookup_place(at, n, 0u);
+        share = lookup_share(placed, placed.point.face, kernel);
         bits = select(0u, 1u, share < 0.5);
     } else if state != BACKGROUND {
         share = 0.0;

@@ -41,12 +41,21 @@ pub fn soft(seed: u64, triangle_count: usize, view_sample_count: usize, light_sa
     SoftCase { case, samples }
 }
 
-impl SoftCase {
-    /// As one light sample sees it.
-    fn seen_from(&self, sample: usize) -> [f32; 3] {
-        self.samples[sample]
-    }
+/// As [`soft`], with all light samples in one plane.
+pub fn soft_planar(seed: u64, triangle_count: usize, view_sample_count: usize, light_sample_count: usize) -> SoftCase {
+    let case = random(seed, triangle_count, view_sample_count);
+    let first = case.position.first().copied().unwrap_or_default();
+    let far = (0..3).map(|k| (case.light[k] - first[k]).abs()).fold(0.0, f32::max);
+    let r = &mut Random(seed);
+    let sample = |_| {
+        let [x, _, z] = r.point();
+        [case.light[0] + 0.2 * far * x, case.light[1], case.light[2] + 0.2 * far * z]
+    };
+    let samples = (0..light_sample_count).map(sample).collect();
+    SoftCase { case, samples }
+}
 
+impl SoftCase {
     /// Whether triangle `caster` blocks light sample `sample` at `row`.
     pub fn blocks(&self, row: usize, caster: usize, sample: usize) -> bool {
         let (case, own) = (&self.case, self.case.triangle[row]);
@@ -56,7 +65,7 @@ impl SoftCase {
                 case.position[row],
                 case.triangles.get(own as usize),
                 &case.triangles[caster],
-                self.seen_from(sample),
+                self.samples[sample],
             )
     }
 
@@ -110,8 +119,12 @@ impl SoftCase {
 }
 
 /// A table pass of stage `lu_table` with `size` bins, added to `inputs`.
+///
+/// # Panics
+/// No such pass, or one that fails: a fault of the test.
 pub fn add_table(inputs: &mut Inputs, table: &str, size: u32) {
-    let Some(pass) = crate::catalogue().pass("lu_table", table) else { unreachable!("no table {table}") };
+    let catalogue = crate::catalogue();
+    let pass = catalogue.pass("lu_table", table).expect("a table");
     let params = Params(vec![("size", Value::U32(size))]);
     let read = inputs.iter().map(|(name, array)| (*name, array)).collect();
     let mut cx = CpuCx::new(pass, &params, [1, 1], read, &|_, _| {});

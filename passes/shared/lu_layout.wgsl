@@ -72,8 +72,10 @@ fn lu_layout_of(@builtin(local_invocation_index) local: u32) {
     }
     var normal = longest(own, local);
     // A light that is a segment lies in many planes: any will do.
-    let any_other = select(vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 1.0, 0.0), abs(x.x) > 0.5);
-    normal = select(normalize(cross(x, any_other)), normal / max(length(normal), 1e-38), length(normal) > OFF_PLANE * radius);
+    let any_other = normalize(cross(x, select(vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 1.0, 0.0), abs(x.x) > 0.5)));
+    normal = select(any_other, normal / max(length(normal), 1e-38), length(normal) > OFF_PLANE * radius);
+    // One of two.
+    normal = select(normal, -normal, dot(normal, any_other) < 0.0);
     if local == 0u {
         put(0u, middle);
         lu_layout[3] = radius;

@@ -1,6 +1,6 @@
 //! Code and WGSL pieces that several passes are made of.
 
-#[cfg(test)]
+#[cfg(any(test, feature = "random_scenes"))]
 pub mod area_light_scenes;
 pub mod atomic_words;
 pub mod bvh;

@@ -67,8 +67,9 @@ fn determinant(p: Wide3, q: Wide3, r: Wide3) -> vec2<f32> {
 
 // Sign of det(a - d, b - d, c - d): -1, 0 or 1.
 fn orientation(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>) -> f32 {
-    let all = determinant(exact_sum(a, -d), exact_sum(b, -d), exact_sum(c, -d));
-    return select(sign(all.x), sign(all.y), all.x == 0.0);
+    let value = determinant(exact_sum(a, -d), exact_sum(b, -d), exact_sum(c, -d));
+    // Of two equal points the terms cancel, but not to the last bit.
+    return select(select(sign(value.x), sign(value.y), value.x == 0.0), 0.0, all(a == b) || all(b == c) || all(c == a));
 }
 
 fn triangle_corner(triangle: u32, corner: u32) -> vec3<f32> {

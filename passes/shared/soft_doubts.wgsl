@@ -39,7 +39,7 @@ fn decide_block(caster: u32, block: u32, receiver: Receiver, light: Light) -> ve
         }
         doubts[word] ^= 1u << (bit % 32u);
         atomicAdd(&counters[0], 1u);
-        if pyramid_decide(caster, receiver.place, receiver.own, light_sample(start + bit)) {
+        if pyramid_decide(caster, receiver.place, select(NO_TRIANGLE, receiver.own, receiver.has_plane), light_sample(start + bit)) {
             hidden[word] |= 1u << (bit % 32u);
         }
     }

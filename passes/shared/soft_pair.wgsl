@@ -42,11 +42,14 @@ fn receiver_of(place: vec3<f32>, own: u32, light: Light) -> Receiver {
     receiver.place = place;
     receiver.own = own;
     receiver.to_light = light.middle - place;
-    receiver.has_plane = own < arrayLength(&triangles) / 9u;
-    if receiver.has_plane {
+    receiver.has_plane = false;
+    if own < arrayLength(&triangles) / 9u {
         let a = triangle_corner(own, 0u);
+        let b = triangle_corner(own, 1u);
+        let c = triangle_corner(own, 2u);
+        receiver.has_plane = !is_collapsed(a, b, c);
         receiver.base = a;
-        receiver.plane = plane_through(triangle_corner(own, 1u) - a, triangle_corner(own, 2u) - a);
+        receiver.plane = plane_through(b - a, c - a);
         let offset = light.middle - a;
         let height = dot(receiver.plane.xyz, offset);
         let range = dot(abs(receiver.plane.xyz), light.half) * 1.000001;

@@ -23,8 +23,6 @@ pub struct Join {
     pub pieces: &'static [&'static str],
     /// Bindings past the join's own.
     pub more: Vec<Bind>,
-    /// Whether pairs may be left in doubt, to be decided exactly.
-    pub has_doubts: bool,
 }
 
 /// Records a pass of soft visibility.
@@ -77,11 +75,9 @@ pub fn record_soft(cx: &mut GpuCx, join: Join) -> Result<(), Problem> {
     cx.dispatch("soft_join", join.pieces, "soft_join", bind.clone(), items, GROUP);
     let long = Queue { queued, word: 0, items: 1, groups: long };
     record_share(cx, "soft_long", join.pieces, "soft_long", bind.clone(), long);
-    if join.has_doubts {
-        let short = Queue { word: 1, groups: 1, ..long };
-        record_share(cx, "soft_doubts", join.pieces, "soft_doubts", bind.clone(), short);
-        let doubtful = Queue { word: 2, groups: doubtful, ..long };
-        record_share(cx, "soft_long_doubts", join.pieces, "soft_long_doubts", bind, doubtful);
-    }
+    let short = Queue { word: 1, groups: 1, ..long };
+    record_share(cx, "soft_doubts", join.pieces, "soft_doubts", bind.clone(), short);
+    let doubtful = Queue { word: 2, groups: doubtful, ..long };
+    record_share(cx, "soft_long_doubts", join.pieces, "soft_long_doubts", bind, doubtful);
     Ok(())
 }

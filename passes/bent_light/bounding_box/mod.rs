@@ -12,6 +12,9 @@
 //! the box behind it only if it has a corner there. With one light sample the box is that point, and a light sample at the light's
 //! centre gives `adjacent_faces`. Without light samples every term is 0.
 //!
+//! The price is darkness: a face that sees most of a large light and not all of its box is black, and so are the smooth surfaces
+//! around it. `adjacent_faces` is lighter, and black only where a face turns away from the light's centre.
+//!
 //! The box is of the light samples, which are what visibility is asked for, and no larger than the light's own. Degenerate
 //! triangles and vertices count as in `adjacent_faces`.
 

@@ -15,15 +15,18 @@ const OFF_PLANE: f64 = 1e-6;
 pub fn plane(samples: &[[f32; 3]], layout: &Layout) -> ([[f32; 3]; 3], usize) {
     let middle = DVec3::from(layout.middle.map(f64::from));
     let offsets: Vec<DVec3> = samples.iter().map(|sample| DVec3::from(sample.map(f64::from)) - middle).collect();
+    // The first of the longest, as the kernel takes it.
     let longest = |vectors: &mut dyn Iterator<Item = DVec3>| {
-        vectors.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or_default()
+        vectors.fold(DVec3::ZERO, |best, one| if one.length_squared() > best.length_squared() { one } else { best })
     };
     let far = longest(&mut offsets.iter().copied());
     let x = far.try_normalize().unwrap_or(DVec3::X);
     // A light that is a segment lies in many planes: any will do.
-    let normal = longest(&mut offsets.iter().map(|offset| x.cross(*offset)));
-    let normal =
-        if normal.length() > OFF_PLANE * far.length() { normal.normalize() } else { x.any_orthonormal_vector() };
+    let any = x.cross(if x.x.abs() > 0.5 { DVec3::Y } else { DVec3::X }).normalize();
+    let across = longest(&mut offsets.iter().map(|offset| x.cross(*offset)));
+    let normal = if across.length() > OFF_PLANE * far.length() { across.normalize() } else { any };
+    // One of two.
+    let normal = if normal.dot(any) < 0.0 { -normal } else { normal };
     let off = offsets.iter().filter(|offset| offset.dot(normal).abs() > OFF_PLANE * far.length()).count();
     ([x, normal.cross(x), normal].map(|axis| axis.as_vec3().to_array()), off)
 }

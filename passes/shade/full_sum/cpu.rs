@@ -35,13 +35,12 @@ impl LightSum<'_> {
             for (sample, _) in samples.filter(|(_, bit)| blocked >> bit & 1 == 0) {
                 let offset = Vec3::from(self.samples[sample]) - surface.position;
                 // Behind the surface itself no caster is needed.
-                if !(offset.dot(surface.geometric_normal) > 0.0) {
-                    continue;
+                if offset.dot(surface.geometric_normal) > 0.0 {
+                    let weight = Vec3::from(self.weights[sample]) / self.settings.weakening(offset);
+                    let terms = self.reflection.terms(surface.shading_normal, unit(offset), toward_eye);
+                    of_word[0] += weight * terms[0];
+                    of_word[1] += weight * terms[1];
                 }
-                let weight = Vec3::from(self.weights[sample]) / self.settings.weakening(offset);
-                let terms = self.reflection.terms(surface.shading_normal, unit(offset), toward_eye);
-                of_word[0] += weight * terms[0];
-                of_word[1] += weight * terms[1];
             }
             sums[0] += of_word[0];
             sums[1] += of_word[1];

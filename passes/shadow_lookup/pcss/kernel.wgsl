@@ -38,7 +38,7 @@ fn tap_of_disc(tap: u32) -> vec2<f32> {
 // than anything where it is not.
 fn blocker(placed: Placed, bias: f32, slope: vec2<f32>, offset: vec2<f32>) -> f32 {
     let point = placed.point;
-    let texel = floor((vec2<f32>(point.u, point.v) + offset - light_window(point.face).xy) / placed.pitch);
+    let texel = floor((vec2<f32>(point.u, point.v) + offset - placed.low) / placed.pitch);
     let seen = lookup_seen(texel, point.face, placed.far);
     // The receiver's plane at the tap, within the cap of a slope.
     let texels = abs(offset.x / placed.pitch.x) + abs(offset.y / placed.pitch.y);
@@ -60,8 +60,7 @@ fn pcss_visible(at: vec3<f32>, n: vec3<f32>) -> f32 {
     }
     let face = placed.point.face;
     let height = max(abs(light_dot(placed.toward, light_origin(face) - at)), 1e-20);
-    let slope = -vec2<f32>(
-        light_dot(placed.toward, light_axis_x(face)), light_dot(placed.toward, light_axis_y(face))) / height;
+    let slope = -vec2<f32>(light_dot(placed.toward, placed.axis_x), light_dot(placed.toward, placed.axis_y)) / height;
     let bias = lookup_bias(placed, 1u);
     let largest = lookup.largest_width * light_window(face).zw;
     let light_radius = light[3];

@@ -158,7 +158,7 @@ fn faces_that_lie_in_one_another_cast_no_shadow_on_one_another() {
     let at =
         |s: f32, t: f32| [0, 1, 2].map(|k| face[0][k] + s * (face[1][k] - face[0][k]) + t * (face[2][k] - face[0][k]));
     let position = [at(0.33, 0.33), at(0.4, 0.31)];
-    let lights = [[0.0, 9.0, 0.0], [8.0, 9.0, 0.0]];
+    let lights = [[0.0, 9.0, 0.0], [80.0, 9.0, 0.0]];
     let masks = |casters: &[u32]| answer(&triangles, casters, &lights, &position, &[0, 1], &[KEPT; 2]);
     assert_eq!(masks(&[1, 1, 1, 0]), [0, 0]);
     assert_eq!(masks(&[1, 1, 1, 1]), [1, 1]);

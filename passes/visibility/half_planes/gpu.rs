@@ -18,5 +18,5 @@ const KERNEL: &[&str] = &[
 
 /// Records the pass.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
-    record_soft(cx, Join { pieces: KERNEL, more: vec![Bind::ReadWrite(Target::Counters)], has_doubts: true })
+    record_soft(cx, Join { pieces: KERNEL, more: vec![Bind::ReadWrite(Target::Counters)] })
 }

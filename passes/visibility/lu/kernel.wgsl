@@ -1,5 +1,8 @@
 // Joined after lu.wgsl.
 
+// Number of (view-sample, caster, light sample) that were decided in two-float arithmetic: where the coplanar rule is in doubt.
+@group(0) @binding(18) var<storage, read_write> counters: array<atomic<u32>>;
+
 // The AND of what the table has for the planes that cut the light.
 fn hidden_block(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, block: u32, receiver: Receiver, light: Light) -> Found {
     let winding = winding_of(pair, a, b, c, receiver);

@@ -33,5 +33,5 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
         Bind::Uniform(vec![size]),
         Bind::ReadWrite(Target::Counters),
     ];
-    record_soft(cx, Join { pieces: KERNEL, more, has_doubts: true })
+    record_soft(cx, Join { pieces: KERNEL, more })
 }

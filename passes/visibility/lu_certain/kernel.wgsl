@@ -39,7 +39,8 @@ fn hidden_block(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, block: u32
         possible &= lu[2u * bin + 1u];
     }
     var left = possible & ~certain & used_of(block);
-    var hidden = certain;
+    // A plane that has all of the light outside says so in `possible` alone.
+    var hidden = certain & possible;
     var is_doubtful = false;
     for (var word = 0u; word < 4u; word++) {
         var rest = left[word];

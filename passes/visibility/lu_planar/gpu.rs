@@ -12,9 +12,11 @@ const KERNEL: &[&str] = &[
     include_str!("../../shared/predicate.wgsl"),
     include_str!("../../shared/pyramid.wgsl"),
     include_str!("../../shared/soft_pair.wgsl"),
+    include_str!("../../shared/soft_sides.wgsl"),
     include_str!("../../shared/soft_join.wgsl"),
     include_str!("../../shared/lu.wgsl"),
     include_str!("kernel.wgsl"),
+    include_str!("../../shared/soft_doubts.wgsl"),
 ];
 
 /// Records the pass.
@@ -25,6 +27,11 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
         return Err(missing_layout());
     }
     let size = cx.dim("lu", 1) as u32;
-    let more = vec![Bind::Read(Target::Port("lu")), Bind::Read(Target::Port("lu_layout")), Bind::Uniform(vec![size])];
-    record_soft(cx, Join { pieces: KERNEL, more, has_doubts: false })
+    let more = vec![
+        Bind::Read(Target::Port("lu")),
+        Bind::Read(Target::Port("lu_layout")),
+        Bind::Uniform(vec![size]),
+        Bind::ReadWrite(Target::Counters),
+    ];
+    record_soft(cx, Join { pieces: KERNEL, more })
 }

@@ -1,5 +1,8 @@
 // Joined after lu.wgsl.
 
+// Number of (view-sample, caster, light sample) that were decided in two-float arithmetic: where the coplanar rule is in doubt.
+@group(0) @binding(18) var<storage, read_write> counters: array<atomic<u32>>;
+
 fn axis(start: u32) -> vec3<f32> {
     return vec3<f32>(lu_layout[start], lu_layout[start + 1u], lu_layout[start + 2u]);
 }

@@ -39,6 +39,11 @@ pub static PASS: Pass = Pass {
     params: &[],
     counters: &[
         Counter {
+            name: "exact_bits",
+            doc: "on a GPU: (view-sample, caster, light sample) decided by arithmetic, where the coplanar rule is in doubt",
+            kind: CounterKind::Info,
+        },
+        Counter {
             name: "pairs",
             doc: "(view-sample, caster) pairs that were met; counted on the CPU",
             kind: CounterKind::Info,

@@ -1,22 +1,13 @@
 use super::PASS;
-use crate::shared::area_light_scenes::{SoftCase, add_table};
-use crate::shared::hard_scenes::{Random, output, random, run};
+use crate::shared::area_light_scenes::{add_table, soft_planar};
+use crate::shared::hard_scenes::{output, run};
 
 #[test]
 fn few_bits_are_wrong_and_fewer_with_a_larger_table() {
     let shares = [64, 512].map(|size| {
         let (mut wrong, mut bits) = (0, 0);
         for seed in 0..20 {
-            let case = random(900 + seed, 20, 60);
-            let first = case.position[0];
-            let far = (0..3).map(|k| (case.light[k] - first[k]).abs()).fold(0.0, f32::max);
-            let r = &mut Random(seed);
-            let sample = |_| {
-                let [x, _, z] = r.point();
-                [case.light[0] + 0.2 * far * x, case.light[1], case.light[2] + 0.2 * far * z]
-            };
-            let samples = (0..128).map(sample).collect();
-            let case = SoftCase { case, samples };
+            let case = soft_planar(900 + seed, 20, 60, 128);
             let mut inputs = case.inputs(2);
             add_table(&mut inputs, "planar", size);
             let (outputs, _) = run(&PASS, &inputs).unwrap();

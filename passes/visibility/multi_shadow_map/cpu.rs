@@ -102,7 +102,8 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
         normal: cx.input(ports::NORMAL.name).as_vec3(),
         sample_state: cx.input(ports::SAMPLE_STATE.name).as_u32(),
     };
-    let [side, at_once] = [super::SIZE, super::AT_ONCE].map(|spec| cx.params().u32(spec.name) as usize);
+    let side = cx.params().u32(super::SIZE.name) as usize;
+    let at_once = super::at_once(cx.params(), faces.len());
     let (masks, behind) = answer(scene, side, at_once, super::lookup(cx.params()), cx.progress());
     let shape = [scene.position.len(), mask_words(scene.light_samples.len())];
     cx.put(ports::MASK.name, Array::u32(shape, masks));

@@ -27,20 +27,24 @@ fn multi_shadow_map_windows(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let first_face = index / size.invocations * size.face_count;
     // Neighbours share a face: bounds are handed in when it changes.
-    var face = first_face;
+    var face = light_face(first_face);
     var bounds = Bounds(vec3<f32>(0.0), vec3<f32>(0.0), true);
     var behind = 0u;
     for (var sample = index % size.invocations; sample < size.sample_count; sample += size.invocations) {
         if sample_state[sample] == KEPT {
-            let point = light_project_from(position_of(sample), first_face, size.face_count);
-            if point.depth > 0.0 {
-                if point.face != face {
+            let at = position_of(sample);
+            if size.face_count > 1u {
+                let index = light_face_of(at, first_face, size.face_count);
+                if index != face.index {
                     if !bounds.is_empty {
-                        raise_bounds(1u + face, bounds);
+                        raise_bounds(1u + face.index, bounds);
                     }
-                    face = point.face;
+                    face = light_face(index);
                     bounds.is_empty = true;
                 }
+            }
+            let point = light_see(face, at);
+            if point.depth > 0.0 {
                 bounds = bounds_with(bounds, vec3<f32>(point.u, point.v, point.depth));
             } else {
                 behind += 1u;
@@ -48,7 +52,7 @@ fn multi_shadow_map_windows(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     }
     if !bounds.is_empty {
-        raise_bounds(1u + face, bounds);
+        raise_bounds(1u + face.index, bounds);
     }
     if behind > 0u {
         atomicAdd(&counters[0], behind);

@@ -1,6 +1,6 @@
 //! Three dispatches for all faces, then for each range a depth-only draw a face and one dispatch.
 
-use super::{AT_ONCE, SIZE, ranges};
+use super::{SIZE, at_once, ranges};
 use crate::ports;
 use crate::shared::light_fit::{self, FIT_WORDS};
 use crate::shared::{light_frame, shadow_lookup, shadow_map, shadow_raster};
@@ -26,8 +26,8 @@ const COMPARE: &[&str] =
 /// The recipe.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     let side = shadow_map::side_on_device(cx, SIZE.name)?;
-    let at_once = cx.params().u32(AT_ONCE.name) as usize;
     let (light_count, face_count) = (cx.dim(input::LIGHT_SAMPLES.name, 0), cx.dim(ports::LIGHT_FRAME.name, 0));
+    let at_once = at_once(cx.params(), face_count);
     let frames = record_frames(cx, light_count, face_count);
     let layers = face_count * at_once.min(light_count.max(1));
     let maps = cx.scratch_texture("maps", Storage::DepthTexture, vec![layers, side as usize, side as usize]);

@@ -34,9 +34,18 @@ fn multi_shadow_map(@builtin(global_invocation_id) id: vec3<u32>) {
     if state == KEPT {
         let at = vec3<f32>(position[3u * row], position[3u * row + 1u], position[3u * row + 2u]);
         let n = vec3<f32>(normal[3u * row], normal[3u * row + 1u], normal[3u * row + 2u]);
+        // All light samples share their axes.
+        var face = light_face(lookup.first * lookup.face_count);
         for (var sample = lookup.first; sample < lookup.end; sample++) {
-            let layer = (sample - lookup.first) * lookup.face_count;
-            let share = lookup_visible(at, n, sample * lookup.face_count, layer, 1u);
+            let first = sample * lookup.face_count;
+            if lookup.face_count > 1u {
+                face = light_face(light_face_of(at, first, lookup.face_count));
+            } else {
+                face.index = first;
+                face.origin = light_origin(first);
+            }
+            let placed = lookup_place_on(face, at, n, first);
+            let share = lookup_share(placed, placed.point.face - lookup.first * lookup.face_count, 1u);
             bits |= select(0u, 1u, share < 0.5) << (sample % 32u);
         }
     }

@@ -7,8 +7,8 @@
 //!
 //! Every light sample looks along the axes of `light_frame` from where it is, through windows fitted to the view-samples as it
 //! sees them: with one light sample these are the faces of `light_frame: fitted`, or `six_faces`, and the answer is that of the
-//! single shadow map, bit for bit. Maps are drawn and looked up in ranges of `at_once` light samples into one depth target, so
-//! memory is `4 at_once F size^2` bytes whatever L is.
+//! single shadow map, bit for bit. Maps take `4 F size^2` bytes a light sample; they are drawn and looked up in ranges of as many
+//! light samples as `memory` holds, into one depth target.
 //!
 //! Errors are those of a shadow map: steps of a texel's width at shadow borders, casters thinner than a texel, and biases
 //! ([`crate::shared::shadow_lookup`]). What falls outside a map is lit. `behind` counts pairs that a single face cannot place.
@@ -35,12 +35,12 @@ const SIZE: ParamSpec = ParamSpec {
     unit: "texels",
     doc: "side of each map: finer shadows as it grows, time and memory as its square",
 };
-/// Maps that exist at a time.
-const AT_ONCE: ParamSpec = ParamSpec {
-    name: "at_once",
-    range: Values::U32 { min: 1, max: 32, default: 8 },
-    unit: "light samples",
-    doc: "maps that are kept at a time: fewer passes over the view-samples as it grows, memory in proportion",
+/// Memory of the maps that exist at a time.
+const MEMORY: ParamSpec = ParamSpec {
+    name: "memory",
+    range: Values::U32 { min: 1, max: 65_536, default: 128 },
+    unit: "MiB",
+    doc: "memory of the maps kept at a time, for one light sample at least and 32 at most: fewer passes over the view-samples as it grows",
 };
 /// View-samples that the faces of a light sample do not see.
 const BEHIND: Counter = Counter {
@@ -69,7 +69,7 @@ pub static PASS: Pass = Pass {
         "bvh_nodes",
         "bvh_order",
     ],
-    params: &[SIZE, AT_ONCE, BIAS_CONSTANT, BIAS_SLOPE, NORMAL_OFFSET],
+    params: &[SIZE, MEMORY, BIAS_CONSTANT, BIAS_SLOPE, NORMAL_OFFSET],
     counters: &[BEHIND],
     contract: Contract::Approximate,
     features: &[],
@@ -90,6 +90,13 @@ fn lookup(params: &Params) -> Lookup {
         normal_offset: params.f32(NORMAL_OFFSET.name),
         kernel: 1,
     }
+}
+
+/// Light samples whose maps of `face_count` faces exist at a time.
+fn at_once(params: &Params, face_count: usize) -> usize {
+    let side = params.u32(SIZE.name) as usize;
+    let bytes = (params.u32(MEMORY.name) as usize) << 20;
+    (bytes / (4 * face_count.max(1) * side * side)).clamp(1, 32)
 }
 
 /// Ranges of at most `at_once` light samples, each within one word of the mask.

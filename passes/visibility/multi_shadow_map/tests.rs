@@ -1,5 +1,5 @@
 use super::cpu::{Scene, answer};
-use super::{PASS, ranges};
+use super::{PASS, at_once, ranges};
 use crate::shared::light_fit;
 use crate::shared::light_frame::Face;
 use crate::shared::shadow_lookup::{Lookup, Map, visible};
@@ -108,8 +108,9 @@ fn ranges_hold_every_light_sample_once_and_cross_no_word() {
 #[test]
 fn memory_does_not_grow_with_the_light_samples() {
     let recipe = |light_count: usize| {
-        let params = Params(PASS.params.iter().map(|spec| (spec.name, spec.range.default_value())).collect());
-        assert_eq!(params.0[1].1, Value::U32(8));
+        let mut params = Params::defaults(PASS.params);
+        assert_eq!(params.0[1].0, "memory");
+        params.0[1].1 = Value::U32(35);
         let shapes = vec![
             ("triangles", vec![5, 3, 3]),
             ("caster_state", vec![5]),
@@ -131,5 +132,6 @@ fn memory_does_not_grow_with_the_light_samples() {
     let draws = commands.iter().filter(|command| matches!(command, Command::Draw(_))).count();
     let dispatches = commands.iter().filter(|command| matches!(command, Command::Dispatch(_))).count();
     assert_eq!((draws, dispatches), (4096, 3 + 512));
+    assert_eq!([at_once(&Params::defaults(PASS.params), 1), at_once(&Params::defaults(PASS.params), 6)], [32, 5]);
     assert_eq!(recipe(1).0.iter().find(|scratch| scratch.label == "maps").unwrap().shape, [1, 1024, 1024]);
 }
