@@ -131,7 +131,8 @@ fn the_light_side_of_a_slanted_roof_is_cut_off() {
     for position in soft.case.position.iter_mut().filter(|position| position[0] < 0.0) {
         *position = [0.375 * position[0], 1.25, 0.375 * position[2]];
     }
-    let is_right = |cell: &u32| cell % 4 >= 2;
+    // Rows at the border reach so far that rounding may take their view-samples anywhere along them.
+    let is_right = |cell: &u32| cell % 4 >= 2 || [0, 3].contains(&(cell / 4));
     let cut = cells(&soft, &params("quad", 4, true));
     assert!(!cut.is_empty() && cut.iter().all(is_right), "{cut:?}");
     assert!(!cells(&soft, &params("quad", 4, false)).iter().all(is_right));
