@@ -28,6 +28,8 @@ pub struct LightBox<'a> {
     pub middle: [f32; 3],
     /// Half extents.
     pub half: [f64; 3],
+    /// Largest distance from the middle.
+    pub radius: f64,
     /// Light sample l is lane l % 16 of chunk l / 16; lanes past the last repeat it. An even number of chunks.
     pub chunks: Vec<Chunk>,
 }
@@ -42,6 +44,8 @@ impl<'a> LightBox<'a> {
         });
         let offset = |sample: &[f32; 3]| [0, 1, 2].map(|k| f64::from(sample[k]) - f64::from(middle[k]));
         let half = [0, 1, 2].map(|k| samples.iter().map(|sample| offset(sample)[k].abs()).fold(0.0, f64::max));
+        let length = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
+        let radius = samples.iter().map(|sample| length(offset(sample))).fold(0.0, f64::max);
         let words = samples.len().div_ceil(32);
         let mut chunks = vec![Chunk::default(); 2 * words];
         for place in 0..32 * words {
@@ -50,12 +54,19 @@ impl<'a> LightBox<'a> {
             let (chunk, lane) = (&mut chunks[place / LANES], place % LANES);
             (chunk.x[lane], chunk.y[lane], chunk.z[lane]) = (x, y, z);
         }
-        Self { samples, middle, half, chunks }
+        Self { samples, middle, half, radius, chunks }
     }
 
     /// Words of a mask.
     pub fn words(&self) -> usize {
         self.chunks.len() / 2
+    }
+
+    /// Half the range of n . s over the light: over its box, or over the ball around it where that is less.
+    #[inline(always)]
+    pub fn spread(&self, [x, y, z]: [f64; 3]) -> f64 {
+        let of_box = x.abs() * self.half[0] + y.abs() * self.half[1] + z.abs() * self.half[2];
+        of_box.min((x * x + y * y + z * z).sqrt() * self.radius)
     }
 
     /// The bits of mask word `word` that stand for a light sample.
