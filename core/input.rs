@@ -40,6 +40,7 @@ pub const LIGHT_SAMPLES: Port = Port::new(Out, "light_samples", F32, "light_samp
     .doc("points on the light; one for a hard shadow");
 /// Weights of light samples.
 pub const LIGHT_WEIGHTS: Port = Port::new(Out, "light_weights", F32, "light_weight", "L 3")
+    .unit("share of the light")
     .doc("linear RGB share of the light that each sample carries; 1/L in every channel for a uniform white light");
 /// Light words.
 pub const LIGHT: Port =
@@ -147,7 +148,8 @@ pub fn camera_words(camera: &Camera, image: [usize; 2]) -> [f32; 20] {
     words
 }
 
-/// What a graph file may ask of the scene and the light.
+/// What a graph file may ask of the scene and the light. The samples are taken for equal shares of the light; see
+/// [`Facts::with_weights`].
 pub fn facts(scene: &Scene, samples: &[[f32; 3]], view_samples_imported: bool) -> Facts {
     let inside = |point: &[f32; 3]| {
         scene.bounds().is_some_and(|[low, high]| (0..3).all(|k| low[k] <= point[k] && point[k] <= high[k]))
@@ -155,6 +157,7 @@ pub fn facts(scene: &Scene, samples: &[[f32; 3]], view_samples_imported: bool) -
     Facts {
         light_is_point: samples.len() <= 1,
         light_is_planar: is_planar(samples),
+        light_is_textured: false,
         light_inside_scene: samples.iter().any(inside),
         all_casters_closed: scene.flags.iter().all(|flags| flags & flag::CLOSED != 0),
         transparency_present: scene.flags.iter().any(|flags| flags & (flag::ALPHA_MASK | flag::ALPHA_BLEND) != 0),
@@ -163,7 +166,8 @@ pub fn facts(scene: &Scene, samples: &[[f32; 3]], view_samples_imported: bool) -
     }
 }
 
-/// Whether all points lie in one plane, within a millionth of their extent.
+/// Whether all points lie in one plane, within a millionth of their extent and the rounding of their coordinates: a light that is
+/// small beside its distance from the origin has no flatter points.
 fn is_planar(samples: &[[f32; 3]]) -> bool {
     let points: Vec<glam::DVec3> = samples.iter().map(|p| glam::Vec3::from(*p).as_dvec3()).collect();
     let Some(&origin) = points.first() else { return true };
@@ -172,5 +176,7 @@ fn is_planar(samples: &[[f32; 3]]) -> bool {
     let normal =
         points.iter().map(|p| far.cross(*p - origin)).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
     let normal = normal.unwrap_or_default().normalize_or_zero();
-    points.iter().all(|p| normal.dot(*p - origin).abs() <= 1e-6 * far.length())
+    // Each coordinate is off by half a unit in the last place, in the point itself and in the three that make the plane.
+    let rounding = 4.0 * f64::from(f32::EPSILON) * points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    points.iter().all(|p| normal.dot(*p - origin).abs() <= 1e-6 * far.length() + rounding)
 }

@@ -5,10 +5,12 @@
 //! between nodes is an [`array::Array`]: a shape and 32-bit words, the same bits on both backends.
 #![forbid(unsafe_code)]
 
+pub mod accumulation;
 pub mod array;
 pub mod cpu;
 pub mod facts;
 pub mod input;
+mod light;
 pub mod metric;
 pub mod param;
 pub mod pass;

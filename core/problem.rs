@@ -31,6 +31,8 @@ pub enum Kind {
     File,
     /// No device, lost device, out of memory.
     Device,
+    /// A pass whose ports, recipe and kernel disagree: a mistake of whoever wrote the pass.
+    BadPass,
 }
 
 /// Where in a file, 1-based.

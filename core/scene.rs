@@ -1,5 +1,7 @@
 //! A scene as plain data: triangles in world space, what is known of them, cameras and lights.
 
+pub use crate::light::{Light, LightShape, Texture};
+
 /// Flag bits of a triangle.
 pub mod flag {
     /// Part of a closed two-manifold with consistent winding: light-back-facing triangles alone decide its shadows.
@@ -56,19 +58,6 @@ pub struct Camera {
     pub up: [f32; 3],
     /// Full vertical angle, radians, in (0, pi).
     pub fov_y: f32,
-}
-
-/// A light, world space.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Light {
-    /// Name for records.
-    pub name: String,
-    /// Its centre; a hard shadow's one light sample.
-    pub position: [f32; 3],
-    /// Radius of the sphere it fills; 0 for a point.
-    pub radius: f32,
-    /// Linear RGB.
-    pub color: [f32; 3],
 }
 
 impl Scene {

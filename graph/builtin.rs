@@ -7,13 +7,17 @@ const BUILTIN: &[(&str, &str)] = &[
     ("hard_draw", include_str!("variants/hard_draw.ron")),
     ("shadow_map", include_str!("variants/shadow_map.ron")),
     ("pcf", include_str!("variants/pcf.ron")),
+    ("pcss", include_str!("variants/pcss.ron")),
+    ("multi_shadow_map", include_str!("variants/multi_shadow_map.ron")),
     ("rays", include_str!("variants/rays.ron")),
     ("soft", include_str!("variants/soft.ron")),
     ("soft_lu", include_str!("variants/soft_lu.ron")),
     ("soft_lu_planar", include_str!("variants/soft_lu_planar.ron")),
     ("soft_certain", include_str!("variants/soft_certain.ron")),
+    ("rays_soft", include_str!("variants/rays_soft.ron")),
     ("truth_hard", include_str!("variants/truth_hard.ron")),
     ("truth_soft", include_str!("variants/truth_soft.ron")),
+    ("soft_shafts", include_str!("variants/soft_shafts.ron")),
 ];
 
 /// Text of the built-in graph `name`.

@@ -61,6 +61,9 @@
 //! has them, else listed as left out. `outputs` and `axes` are laid over entry by entry; `inputs` and `doc` are the file's
 //! own if given.
 //!
+//! `light_samples: 256` says how many light samples the graph is made for; a base's number holds until a file states its own. It
+//! is a wish to whoever supplies the samples ([`Graph::light_samples`]), not a part of the plan: every graph runs on any number.
+//!
 //! `axes` lists what sweeps range over, `NODE: [passes]` and `NODE.PARAM: [values]`; [`variants()`] makes every combination:
 //!
 //! ```ron

@@ -27,6 +27,7 @@ pub struct Graph {
     pub(crate) nodes: Vec<NodeWritten>,
     pub(crate) outputs: Vec<(Name, Name)>,
     pub(crate) axes: Vec<(Name, Vec<Scalar>)>,
+    pub(crate) light_samples: Option<u32>,
     pub(crate) findings: Findings,
 }
 
@@ -38,6 +39,10 @@ impl Graph {
     /// What the file says it is; empty if it says nothing.
     pub fn doc(&self) -> &str {
         &self.doc
+    }
+    /// How many light samples it is made for; none if it does not say. Whoever supplies the samples may ask.
+    pub fn light_samples(&self) -> Option<u32> {
+        self.light_samples
     }
     /// Ids of all nodes, in the order of the file.
     pub fn node_ids(&self) -> impl Iterator<Item = &str> {
@@ -90,7 +95,7 @@ pub fn load(source: Source, loader: &Loader) -> Result<Graph, Problems> {
     for file in chain.into_iter().rev() {
         merge.apply(file, &mut findings);
     }
-    let Merge { doc, inputs, nodes, outputs, axes } = merge;
+    let Merge { doc, inputs, nodes, outputs, axes, light_samples } = merge;
     // Outputs that are there and cannot be read are told already.
     if outputs.is_empty() && (!says_outputs || findings.is_empty()) {
         let problem = Problem::new(Kind::Missing, "graph has no outputs, so nothing would run");
@@ -104,6 +109,7 @@ pub fn load(source: Source, loader: &Loader) -> Result<Graph, Problems> {
         nodes: nodes.into_values().collect(),
         outputs: outputs.into_values().collect(),
         axes: axes.into_values().collect(),
+        light_samples,
         findings,
     })
 }
@@ -145,6 +151,7 @@ struct Merge {
     nodes: IndexMap<String, NodeWritten>,
     outputs: IndexMap<String, (Name, Name)>,
     axes: IndexMap<String, (Name, Vec<Scalar>)>,
+    light_samples: Option<u32>,
 }
 
 impl Merge {
@@ -154,6 +161,7 @@ impl Merge {
         let has_base = file.base.is_some();
         self.doc = file.doc.map_or(std::mem::take(&mut self.doc), |doc| doc.text);
         self.inputs = file.inputs.or(self.inputs.take());
+        self.light_samples = file.light_samples.or(self.light_samples);
         let removed: Vec<Name> = file.remove.filter(|_| has_base).map_or(Vec::new(), |(_, names)| names);
         for name in &removed {
             if self.nodes.shift_remove(&name.text).is_none() {

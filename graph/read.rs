@@ -9,11 +9,13 @@ use shadowgraph_core::plan::Backend;
 use shadowgraph_core::problem::{Kind, Problem};
 
 const FILE_FIELDS: &[&str] =
-    &["version", "doc", "base", "inputs", "nodes", "replace", "add", "remove", "outputs", "axes"];
+    &["version", "doc", "base", "inputs", "nodes", "replace", "add", "remove", "outputs", "axes", "light_samples"];
 const NODE_FIELDS: &[&str] = &["id", "stage", "pass", "params", "on", "in", "choose", "when", "unless"];
 const ALTERNATIVE_FIELDS: &[&str] = &["when", "unless", "pass", "params"];
 /// Most nodes of one list, entries of one map: far above any use, far below what hurts.
 const MAX_ENTRIES: usize = 10_000;
+/// Most light samples that a graph may say it is made for: as many as a light can have.
+const MAX_LIGHT_SAMPLES: u32 = 4096;
 
 /// What the tree of one file says; none when it is no struct.
 pub(crate) fn read(tree: &Tree, findings: &mut Findings) -> Option<FileWritten> {
@@ -36,6 +38,7 @@ pub(crate) fn read(tree: &Tree, findings: &mut Findings) -> Option<FileWritten> 
             "add" => file.add = Some((field.span, reader.nodes(value, "add"))),
             "remove" => file.remove = Some((field.span, reader.names(value, "remove"))),
             "outputs" => file.outputs = Some(reader.wires(value, "outputs", "output")),
+            "light_samples" => file.light_samples = reader.light_samples(value),
             _ => file.axes = reader.axes(value),
         }
     }
@@ -83,6 +86,20 @@ impl Reader<'_> {
             let problem = Problem::new(Kind::BadValue, "graph format version is not known");
             self.findings.push(value.span, problem.expected(VERSION.to_string()).found(value.data.text()));
         }
+    }
+
+    fn light_samples(&mut self, value: &Tree) -> Option<u32> {
+        let whole = match &value.data {
+            Data::Number(number) => number.whole.and_then(|whole| u32::try_from(whole).ok()),
+            _ => None,
+        };
+        let count = whole.filter(|count| (1..=MAX_LIGHT_SAMPLES).contains(count));
+        if count.is_none() {
+            let problem = Problem::new(Kind::BadValue, "`light_samples` is no number of light samples");
+            let expected = format!("a whole number in 1..={MAX_LIGHT_SAMPLES}");
+            self.findings.push(value.span, problem.expected(expected).found(value.data.text()));
+        }
+        count
     }
 
     fn name(&mut self, value: &Tree, what: &str) -> Option<Name> {

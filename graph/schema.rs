@@ -36,6 +36,7 @@ pub(crate) struct FileWritten {
     pub remove: Option<(Span, Vec<Name>)>,
     pub outputs: Option<Vec<(Name, Name)>>,
     pub axes: Vec<(Name, Vec<Scalar>)>,
+    pub light_samples: Option<u32>,
 }
 
 /// `when` and `unless`: holds where the one fact does and the other does not.

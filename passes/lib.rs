@@ -7,6 +7,7 @@ pub mod ports;
 pub mod shared;
 
 pub mod bent_light;
+pub mod bvh_build;
 pub mod caster_fill;
 pub mod casters;
 pub mod combine;
@@ -28,7 +29,7 @@ use shadowgraph_core::pass::Catalogue;
 
 /// All passes of this crate, stage by stage in the order of a frame.
 pub fn catalogue() -> Catalogue {
-    let stages: [&[&'static shadowgraph_core::pass::Pass]; 17] = [
+    let stages: [&[&'static shadowgraph_core::pass::Pass]; 18] = [
         view_samples::PASSES,
         sample_filter::PASSES,
         light_frame::PASSES,
@@ -39,6 +40,7 @@ pub fn catalogue() -> Catalogue {
         conservative_raster::PASSES,
         caster_fill::PASSES,
         lu_table::PASSES,
+        bvh_build::PASSES,
         visibility::PASSES,
         light_depth::PASSES,
         shadow_lookup::PASSES,

@@ -88,11 +88,22 @@ pub const MASK: Port = Port::new(Out, "mask", U32, "mask", "P M").doc(
 /// Visible fraction.
 pub const VISIBLE: Port = Port::new(Out, "visible", F32, "fraction", "P")
     .doc("visible fraction of the light, 0 umbra to 1 lit; 1 for background");
+/// Visible light of each channel.
+pub const VISIBLE_COLOR: Port = Port::new(Out, "visible_color", F32, "light_share", "P 3")
+    .unit("share of the light's colour")
+    .doc("light of each channel that arrives, 0 umbra; no rows where every channel is `visible` times the light's colour");
 /// Depth seen from the light.
 pub const DEPTH: Port = Port::new(Out, "depth", F32, "light_depth", "F D D")
     .space(Space::Light)
     .storage(Storage::DepthTexture)
     .doc("hyperbolic depth 0 near to 1 far, 1 where nothing is seen");
+/// Tree of boxes.
+pub const BVH_NODES: Port = Port::new(Out, "bvh_nodes", U32, "bvh_node", "N 8").space(Space::World).doc(
+    "boxes over the casters, depth first: low xyz, node after the subtree (all bits set: none), high xyz, 8 place + count of a leaf's triangles (0: inner)",
+);
+/// Triangles by leaf.
+pub const BVH_ORDER: Port = Port::new(Out, "bvh_order", U32, "bvh_triangle", "T")
+    .doc("triangles in the order of the leaves; all bits set past the casters");
 /// Bent light at corners.
 pub const CORNER_LIGHT: Port = Port::new(Out, "corner_light", F32, "bent_light", "T 3")
     .doc("l_bend: smallest cosine between the light direction and the adjacent faces' normals");

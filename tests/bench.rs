@@ -20,7 +20,7 @@ pub fn verify_args(words: &[&str]) -> VerifyArgs {
     }
 }
 
-/// A scene at a picture size.
+/// A scene at a picture size, with one light sample.
 pub fn job(scene: &str, size: &str) -> Job {
     job_lit(scene, size, &[])
 }
@@ -29,4 +29,9 @@ pub fn job(scene: &str, size: &str) -> Job {
 pub fn job_lit(scene: &str, size: &str, light: &[&str]) -> Job {
     let args = render_args(&[&["hard", "--scene", scene, "--size", size], light].concat());
     Job::load(&args.scene).unwrap_or_else(|problem| panic!("{scene}: {problem}"))
+}
+
+/// The same on so many light samples.
+pub fn soft_job(scene: &str, size: &str, light_samples: &str) -> Job {
+    job_lit(scene, size, &["--light-samples", light_samples])
 }

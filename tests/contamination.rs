@@ -12,7 +12,7 @@ use shadowgraph_wgpu::{Options, Session};
 
 /// A trial for each graph that runs on a device, and the control.
 pub fn trials() -> Vec<Trial> {
-    let graphs = ["hard", "hard_fused", "hard_draw", "shadow_map", "pcf"];
+    let graphs = ["hard", "hard_fused", "hard_draw", "shadow_map", "pcf", "pcss", "multi_shadow_map"];
     let mut trials: Vec<Trial> = graphs
         .into_iter()
         .map(|graph| gpu::trial(format!("contamination/{graph}"), move |session| unchanged(session, graph)))

@@ -1,13 +1,19 @@
 //! One binary: every rule, case and comparison that spans crates. `cargo test -p shadowgraph-tests -- FILTER` runs a part.
 
 mod area_lights;
+mod baselines;
 mod bench;
+mod closed_form;
 mod contamination;
+mod device_raster;
 mod docs;
+mod frames;
 mod gpu;
 mod graphs;
 mod pairs;
 mod program;
+mod ranges;
+mod shading;
 mod suite;
 mod tidy;
 mod truth;
@@ -29,7 +35,13 @@ fn main() -> ExitCode {
     trials.extend(pairs::trials());
     trials.extend(area_lights::trials());
     trials.extend(contamination::trials());
+    trials.extend(ranges::trials());
+    trials.extend(device_raster::trials());
     trials.extend(truth::trials());
+    trials.extend(closed_form::trials());
+    trials.extend(shading::trials());
+    trials.extend(frames::trials());
+    trials.extend(baselines::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

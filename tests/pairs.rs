@@ -13,8 +13,9 @@ use std::collections::HashSet;
 
 const KINDS: [(&str, u32); 4] = [("sphere", 4), ("ellipsoid", 6), ("sphere", 8), ("quad", 4)];
 const SEEDS: u64 = 16;
-/// More pairs than the CPU function finds, for the wider bounds of f32.
-const SHARE: f64 = 1.1;
+/// More pairs than the CPU function finds, at most. Many random casters pass through a point light but for rounding: where f32 cannot
+/// tell them apart from it, their regions are whole faces.
+const SHARE: f64 = 1.25;
 
 /// A trial a light, and the control.
 pub fn trials() -> Vec<Trial> {
@@ -28,7 +29,7 @@ pub fn trials() -> Vec<Trial> {
             .map(|seed| {
                 let soft = soft(seed, "sphere", 20, 80);
                 let middle = soft.case.light;
-                let shrink = |s: &[f32; 3]| [0, 1, 2].map(|k| middle[k] + 0.8 * (s[k] - middle[k]));
+                let shrink = |s: &[f32; 3]| [0, 1, 2].map(|k| middle[k] + 0.5 * (s[k] - middle[k]));
                 let light: Vec<[f32; 3]> = soft.light.iter().map(shrink).collect();
                 let found = found(session, &params("ellipsoid", 8, true), &soft.inputs_lit_by(&light))?;
                 Ok(needed(&soft).difference(&found).count())

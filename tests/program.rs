@@ -14,7 +14,27 @@ pub fn trials() -> Vec<Trial> {
         Trial::test("program/check_tells_every_mistake_and_fails", check),
         Trial::test("program/a_wrong_flag_is_a_problem_with_a_remedy", wrong_flags),
         Trial::test("program/the_record_is_json", json),
+        Trial::test("program/a_soft_graph_has_its_light_samples_without_flags", light_samples),
+        Trial::test("program/the_light_is_what_its_flags_say_in_record_and_dump", light),
+        Trial::test("program/light_flags_that_do_not_fit_are_problems", wrong_light),
+        Trial::test("program/sets_of_light_samples_are_averaged", light_sets),
     ]
+}
+
+/// The mean over sets keeps view-samples and visible shares and has no mask; its record says what it is.
+fn light_sets() -> Result<(), Failed> {
+    let (_keep, out) = folder()?;
+    let scene = ["render", "truth_soft", "--scene", "builtin:half-plane", "--backend", "cpu", "--size", "40x30"];
+    let sets = ["--light-samples", "32", "--light-sets", "4", "--dump", &out];
+    let output = program(&[&scene[..], &sets].concat())?;
+    succeeded(&output)?;
+    assert!(stdout(&output).contains("4 disjoint sets of 32 light samples"), "{}", stdout(&output));
+    let index = std::fs::read_to_string(PathBuf::from(&out).join("index.json")).map_err(|error| error.to_string())?;
+    assert_eq!(shape_of(&index, "view_samples.position.npy")?[0], shape_of(&index, "combine.visible.npy")?[0]);
+    assert!(shape_of(&index, "visibility.mask.npy").is_err(), "masks differ from set to set");
+    let repeated = program(&["render", "truth_soft", "--light-sets", "4", "--repeat", "2"])?;
+    assert!(!repeated.status.success() && stderr(&repeated).contains("--repeat"), "{}", stderr(&repeated));
+    Ok(())
 }
 
 /// The program, built by this test run.
@@ -112,9 +132,13 @@ fn check() -> Result<(), Failed> {
         "hard_draw",
         "shadow_map",
         "pcf",
+        "pcss",
+        "multi_shadow_map",
         "rays",
+        "rays_soft",
         "truth_hard",
         "truth_soft",
+        "soft_shafts",
     ])?)
 }
 
@@ -142,4 +166,64 @@ fn json() -> Result<(), Failed> {
     assert_eq!(record["device"]["backend"], "cpu");
     assert!(record["nodes"].as_array().is_some_and(|nodes| nodes.len() > 10), "{record}");
     Ok(())
+}
+
+fn record(words: &[&str]) -> Result<serde_json::Value, Failed> {
+    let common = ["--backend", "cpu", "--size", "16x12", "--json", "-q"];
+    let output = program(&[words, &common].concat())?;
+    succeeded(&output)?;
+    serde_json::from_str(&stdout(&output)).map_err(|error| error.to_string().into())
+}
+
+fn light_samples() -> Result<(), Failed> {
+    let count = |words: &[&str]| Ok::<_, Failed>(record(words)?["scene"]["light_samples_count"].clone());
+    assert_eq!(count(&["render", "truth_soft"])?, 256);
+    assert_eq!(count(&["render", "truth_soft", "--light-samples", "5"])?, 5);
+    assert_eq!(count(&["render", "hard"])?, 1);
+    let still = record(&["render", "truth_soft", "--light-radius", "0", "--light-samples", "3"])?;
+    let notes = still["notes"].to_string();
+    assert!(notes.contains("all 3 light samples coincide"), "{notes}");
+    Ok(())
+}
+
+fn light() -> Result<(), Failed> {
+    let (_keep, out) = folder()?;
+    let words = ["render", "truth_soft", "--dump", &out, "--light-shape", "disc", "--light-radius", "0.5"];
+    let words = [&words[..], &["--generator", "lattice", "--light-seed", "9", "--light-samples", "100"]].concat();
+    let record = record(&words)?;
+    let scene = &record["scene"];
+    assert_eq!((&scene["light_shape"], &scene["light_generator"]), (&"disc".into(), &"lattice".into()));
+    let radius = scene["light_radius"].as_f64().ok_or("no radius")?;
+    assert!(scene["light_seed"] == 9 && (radius - 0.5).abs() < 1e-6, "{scene}");
+    assert_eq!(record["facts"]["light_is_planar"], true);
+    let index = std::fs::read_to_string(PathBuf::from(&out).join("index.json")).map_err(|error| error.to_string())?;
+    assert_eq!(shape_of(&index, "light_samples.npy")?, [100, 3]);
+    assert_eq!(shape_of(&index, "light_weights.npy")?, [100, 3]);
+    let index: serde_json::Value = serde_json::from_str(&index).map_err(|error| error.to_string())?;
+    let unit = |file| index["arrays"].as_array().and_then(|rows| rows.iter().find(|row| row["file"] == file));
+    assert_eq!(unit("light_samples.npy").map(|row| &row["unit"]), Some(&"scene units".into()));
+    assert_eq!(unit("light_weights.npy").map(|row| &row["unit"]), Some(&"share of the light".into()));
+    // What was dumped is a light again: the same samples in the same order.
+    let samples = PathBuf::from(&out).join("light_samples.npy").display().to_string();
+    let (_keep, again) = folder()?;
+    self::record(&["render", "truth_soft", "--light-points", &samples, "--dump", &again])?;
+    let bytes = |folder: &str, file: &str| std::fs::read(PathBuf::from(folder).join(file)).map_err(|e| e.to_string());
+    assert!(bytes(&out, "light_samples.npy")? == bytes(&again, "light_samples.npy")?);
+    assert!(bytes(&out, "visibility.mask.npy")? == bytes(&again, "visibility.mask.npy")?);
+    Ok(())
+}
+
+fn wrong_light() -> Result<(), Failed> {
+    let refused = |words: &[&str], says: &str| {
+        let output = program(&[&["render", "truth_soft", "--backend", "cpu"], words].concat())?;
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        assert!(stderr(&output).contains(says), "{}", stderr(&output));
+        Ok::<_, Failed>(())
+    };
+    refused(&["--light-shape", "disk"], "invalid value 'disk'")?;
+    refused(&["--light-shape", "ellipsoid"], "expected 3 times, each X,Y,Z")?;
+    refused(&["--light-points", "no/such.npy"], "no/such.npy")?;
+    refused(&["--light-texture", "Cargo.toml"], "Cargo.toml: not a PNG file")?;
+    refused(&["--light-mesh", "builtin:one-triangle", "--light-shape", "volume"], "not closed")?;
+    refused(&["--light-points", "x.npy", "--light-mesh", "y.glb"], "cannot be used with")
 }

@@ -33,6 +33,8 @@ const GPU_SHARE: f64 = 1e-5;
 const EXACT_SOFT: &[&str] = &["soft", "soft_certain"];
 /// Light of the scenes for them: two words of samples, and wide.
 const AREA_LIGHT: &[&str] = &["--light-samples", "40", "--light-radius", "0.3"];
+/// With one light sample an influence region holds all that the footprint does.
+const INFLUENCE: &[&str] = &["hard", "--swap", "conservative_raster=influence"];
 const DRAWN: &[&[&str]] = &[&["hard_draw"], &["hard", "--swap", "conservative_raster=expanded_draw"]];
 
 /// One trial a scene, graph and backend, and the controls.
@@ -56,6 +58,12 @@ pub fn trials() -> Vec<Trial> {
                 let run = move || check_soft(graph, &scene, size, backend, share);
                 trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
             }
+        }
+        for (backend, size, share) in [("cpu", "160x120", 0.0), ("wgpu", "96x72", GPU_SHARE)] {
+            let name = format!("truth/{}/{scene}/{backend}", INFLUENCE.join("+"));
+            let scene = scene.clone();
+            let run = move || check_words(INFLUENCE, &scene, size, backend, share);
+            trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
         }
     }
     // What only the rasteriser does: casters drawn grown, into the table or straight into the masks.

@@ -1,13 +1,15 @@
 //! CPU function against GPU recipe, node by node on equal inputs: a graph runs on the CPU with every value kept, then each node's
 //! recipe runs on the values its CPU function read, and the outputs are compared as the pass's contract says.
 
-use crate::bench::{job, render_args};
+use crate::bench::{job, job_lit, render_args};
 use crate::gpu;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::BackendChoice;
 use shadowgraph::engine::Machine;
 use shadowgraph::graph_choice;
+use shadowgraph::job::Job;
 use shadowgraph_core::array::{Array, Element};
+use shadowgraph_core::metric::mask_difference;
 use shadowgraph_core::pass::Contract;
 use shadowgraph_core::plan::{Backend, Node};
 use shadowgraph_core::shared::NO_CELL;
@@ -22,13 +24,26 @@ const GRAPHS: &[(&str, &[&str])] = &[
         &["list_build=sort", "list_scan=serial", "casters=light_back_facing", "light_frame=whole", "sample_filter=all"],
     ),
     ("hard", &["visibility=fused", "light_frame=six_faces", "combine=threshold", "bent_light=own_face", "shade=phong"]),
+    ("hard", &["conservative_raster=influence"]),
     ("shadow_map", &["light_depth=second_surface"]),
     ("pcf", &[]),
     ("soft", &[]),
     ("soft_lu", &[]),
     ("soft_lu_planar", &[]),
     ("soft_certain", &[]),
+    ("rays", &[]),
+    ("pcss", &[]),
+    ("multi_shadow_map", &[]),
 ];
+
+/// Graphs for any number of light samples, which run with some, too: 33 are two words of mask, the second nearly empty.
+const SOFT: &[(&str, &[&str])] = &[
+    ("truth_soft", &["combine=weighted", "bent_light=bounding_box", "shade=full_sum"]),
+    ("rays_soft", &[]),
+    ("pcss", &[]),
+    ("multi_shadow_map", &[]),
+];
+const LIGHT: &[&str] = &["--light-samples", "33", "--light-radius", "0.3"];
 
 const SCENES: &[(&str, &str)] = &[
     ("builtin:columns", "65x63"),
@@ -40,20 +55,26 @@ const SCENES: &[(&str, &str)] = &[
 /// A trial a graph and scene.
 pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
+    let name_of = |graph: &str, swaps: &[&str], light: &str, scene: &str, size: &str| {
+        let swaps = swaps.iter().map(|swap| format!("+{swap}")).collect::<String>();
+        format!("twins/{graph}{swaps}{light}/{scene}@{size}")
+    };
     for (graph, swaps) in GRAPHS {
         for (scene, size) in SCENES {
-            let name = format!(
-                "twins/{graph}{}/{scene}@{size}",
-                swaps.iter().map(|swap| format!("+{swap}")).collect::<String>()
-            );
-            trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, scene, size)));
+            let name = name_of(graph, swaps, "", scene, size);
+            trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, &job(scene, size))));
+        }
+    }
+    for (graph, swaps) in SOFT {
+        for (scene, size) in SCENES.iter().chain([&("builtin:light-inside", "40x30")]) {
+            let name = name_of(graph, swaps, "/33 light samples", scene, size);
+            trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, &job_lit(scene, size, LIGHT))));
         }
     }
     trials
 }
 
-fn twins(session: &Session, graph: &str, swaps: &[&str], scene: &str, size: &str) -> Result<(), Failed> {
-    let job = job(scene, size);
+fn twins(session: &Session, graph: &str, swaps: &[&str], job: &Job) -> Result<(), Failed> {
     let words: Vec<String> = std::iter::once(graph.to_string())
         .chain(swaps.iter().flat_map(|swap| ["--swap".to_string(), swap.to_string()]))
         .collect();
@@ -63,7 +84,7 @@ fn twins(session: &Session, graph: &str, swaps: &[&str], scene: &str, size: &str
     let plan = graph_choice::plan(&choice, &catalogue, Some(&job.facts), Backend::Cpu, Keep::AllLivePorts)
         .map_err(|problems| problems.to_string())?;
     let machine = Machine::new(BackendChoice::Cpu).map_err(|problem| problem.to_string())?;
-    let outcome = machine.run(&plan, &job, 1, &|_, _, _| {}).map_err(|problem| problem.to_string())?;
+    let outcome = machine.run(&plan, job, 1, &|_, _, _| {}).map_err(|problem| problem.to_string())?;
     let mut faults = Vec::new();
     for node in plan.nodes.iter().filter(|node| node.pass.gpu.is_some()) {
         let inputs: Vec<_> =
@@ -91,7 +112,7 @@ fn node_faults(node: &Node, inputs: Named, cpu: &[(&'static str, &Array)], gpu: 
         "list_build" => list_faults(port("cell"), port("slot"), port("list_length"), twin("cell")),
         "list_fill" => sets_faults(inputs, "list_offset", twin("list_entries"), port("list_entries")),
         "caster_fill" => sets_faults(inputs, "caster_offset", twin("caster_entries"), port("caster_entries")),
-        // Judged by the masks that come of it: `truth` holds that nothing that matters is missing.
+        // Judged by the masks that come of it: `truth` and `pairs` hold that nothing that matters is missing.
         "conservative_raster" => Vec::new(),
         _ => cpu
             .iter()
@@ -99,6 +120,11 @@ fn node_faults(node: &Node, inputs: Named, cpu: &[(&'static str, &Array)], gpu: 
                 let found = port(name)?;
                 // A pixel centre within rounding of an edge may see either triangle; the rasteriser snaps corners to a grid.
                 let one_in = if node.pass.stage.name == "view_samples" { 200 } else { 1000 };
+                let lights =
+                    inputs.iter().find(|(port, _)| *port == "light_samples").map_or(0, |(_, array)| array.dim(0));
+                if *name == "mask" && lights > 1 {
+                    return mask_fault(wanted, found, lights, node.pass.contract, one_in as u64);
+                }
                 value_fault(wanted, found, node.pass.contract, one_in)
                     .map(|fault| format!("{}.{name}: {fault}", node.id))
             })
@@ -130,6 +156,17 @@ fn value_fault(wanted: &Array, found: &Array, contract: Contract, one_in: usize)
         let first = (0..wanted.words().len()).find(|index| differs(index)).unwrap_or(0);
         format!("{count} of {} words differ, first word {first}", wanted.words().len())
     })
+}
+
+/// Masks of many light samples, bit by bit: words with one bit in doubt each would be no measure.
+fn mask_fault(wanted: &Array, found: &Array, lights: usize, contract: Contract, one_in: u64) -> Option<String> {
+    if wanted.shape() != found.shape() {
+        return Some(format!("shape {:?}, not {:?}", found.shape(), wanted.shape()));
+    }
+    let difference = mask_difference(found.as_u32(), wanted.as_u32(), wanted.dim(1), lights, |_| true);
+    let allowed = if contract == Contract::Exact { 0 } else { difference.bits_count / one_in + 1 };
+    let (count, all) = (difference.wrong_count(), difference.bits_count);
+    (count > allowed).then(|| format!("mask: {count} of {all} bits differ, first row {}", difference.wrong_rows[0]))
 }
 
 fn list_faults(
@@ -185,6 +222,11 @@ pub fn controls() -> Vec<Trial> {
         assert!(value_fault(&wanted, &found, Contract::Within(0.1), 1000).is_some());
         assert!(value_fault(&whole, &Array::u32([2], vec![1, 3]), Contract::Exact, 1000).is_some());
         assert!(value_fault(&whole, &Array::u32([1], vec![1]), Contract::Exact, 1000).is_some());
+        let masks = |word: u32| Array::u32([2, 2], vec![word, 0, 5, 1 << 7]);
+        assert!(mask_fault(&masks(0), &masks(0), 39, Contract::Exact, 1000).is_none());
+        assert!(mask_fault(&masks(0), &masks(8), 39, Contract::Exact, 1000).is_some());
+        assert!(mask_fault(&masks(0), &masks(8), 39, Contract::Approximate, 1000).is_none());
+        assert!(mask_fault(&masks(0), &masks(12), 39, Contract::Approximate, 1000).is_some());
         let offsets = [("list_offset", Array::u32([3], vec![0, 2, 3]))];
         let (one, same, other) =
             (Array::u32([3], vec![5, 6, 7]), Array::u32([3], vec![6, 5, 7]), Array::u32([3], vec![6, 7, 5]));

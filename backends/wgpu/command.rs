@@ -1,11 +1,12 @@
 //! A recipe's commands with pipelines, memory and sizes: what is left is to record them.
 
 use crate::group::Group;
+use crate::limits::{check_buffers, storage_buffers};
 use crate::pipeline::{DUMMY_FORMAT, Made, Pipelines};
 use crate::pool::Part;
 use crate::prepare::Prepared;
 use crate::recipe::Recipe;
-use crate::shader::Class;
+use crate::shader::{Class, bad_pass};
 use shadowgraph_core::port::Storage;
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::record::{Bind, Command, Dispatch, Draw, Groups, Target};
@@ -62,7 +63,10 @@ pub(crate) struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// The commands of a node's recipe; panics where recipe and kernels disagree.
+    /// The commands of a node's recipe.
+    ///
+    /// # Errors
+    /// Recipe and kernels disagree; a draw or dispatch is larger than the device allows.
     pub fn acts(&mut self, prepared: &Prepared, node: usize, recipe: &Recipe) -> Result<Vec<Act>, Problem> {
         let part = |target: Target| prepared.layout.part(&prepared.plan, node, target).clone();
         let mut acts: Vec<Act> = Vec::new();
@@ -74,7 +78,7 @@ impl Maker<'_> {
                     acts.push(Act::Copy { from: part(*from), to: part(*to), bytes: *words as u64 * 4 });
                 }
                 Command::Dispatch(dispatch) => {
-                    let kernel = self.kernel(prepared, node, dispatch);
+                    let kernel = self.kernel(prepared, node, dispatch)?;
                     match acts.last_mut() {
                         Some(Act::Compute(kernels)) => kernels.push(kernel),
                         _ => acts.push(Act::Compute(vec![kernel])),
@@ -86,18 +90,21 @@ impl Maker<'_> {
         Ok(acts)
     }
 
-    fn kernel(&self, prepared: &Prepared, node: usize, dispatch: &Dispatch) -> Kernel {
+    fn kernel(&self, prepared: &Prepared, node: usize, dispatch: &Dispatch) -> Result<Kernel, Problem> {
+        check_buffers(&prepared.plan.nodes[node], storage_buffers(&dispatch.bind), &self.limits)?;
         let who = who(prepared, node, dispatch.label);
         let parts = classes(prepared, node, &dispatch.bind);
         let classes: Vec<Class> = parts.iter().map(|(class, _)| *class).collect();
-        let Made { pipeline, bind } = self.pipelines.compute(&who, dispatch, &classes);
+        let Made { pipeline, bind } = self.pipelines.compute(&who, dispatch, &classes)?;
         let size = match &dispatch.groups {
             Groups::Direct(size) => {
                 let most = self.limits.max_compute_workgroups_per_dimension;
-                assert!(
-                    size.iter().all(|count| *count <= most),
-                    "{who}: {size:?} groups, at most {most} along an axis"
-                );
+                if size.iter().any(|count| *count > most) {
+                    return Err(Problem::new(Kind::Overflow, "a dispatch is larger than the device allows")
+                        .node(who)
+                        .expected(format!("at most {most} workgroups along an axis"))
+                        .found(format!("{size:?}")));
+                }
                 Size::Direct(*size)
             }
             Groups::Indirect(target, word) => {
@@ -105,10 +112,11 @@ impl Maker<'_> {
             }
         };
         let group = Group::new(prepared, self.queue, &who, bind, &dispatch.bind, parts);
-        Kernel { label: dispatch.label, pipeline, group, size }
+        Ok(Kernel { label: dispatch.label, pipeline, group, size })
     }
 
     fn raster(&mut self, prepared: &Prepared, node: usize, draw: &Draw) -> Result<Raster, Problem> {
+        check_buffers(&prepared.plan.nodes[node], storage_buffers(&draw.bind), &self.limits)?;
         let who = who(prepared, node, draw.label);
         let part = |target: Target| prepared.layout.part(&prepared.plan, node, target).clone();
         let color: Vec<Part> = draw.color.iter().map(|color| part(color.target)).collect();
@@ -116,7 +124,11 @@ impl Maker<'_> {
         let size = draw.size.map(|side| side.max(1));
         for target in color.iter().chain(&depth) {
             let [width, height, _] = target.extent();
-            assert_eq!([width, height], size, "{who}: an attachment does not have the size of the draw");
+            if [width, height] != size {
+                return Err(bad_pass(&who, "an attachment does not have the size of the draw")
+                    .expected(format!("{}x{}", size[0], size[1]))
+                    .found(format!("{width}x{height}")));
+            }
         }
         let most = self.limits.max_texture_dimension_2d;
         if size.iter().any(|side| *side > most) {
@@ -128,7 +140,7 @@ impl Maker<'_> {
         let parts = classes(prepared, node, &draw.bind);
         let classes: Vec<Class> = parts.iter().map(|(class, _)| *class).collect();
         let storages: Vec<Storage> = color.iter().map(|part| part.storage).collect();
-        let Made { pipeline, bind } = self.pipelines.render(&who, draw, &classes, &storages);
+        let Made { pipeline, bind } = self.pipelines.render(&who, draw, &classes, &storages)?;
         let group = Group::new(prepared, self.queue, &who, bind, &draw.bind, parts);
         let dummy = (color.is_empty() && depth.is_none()).then(|| self.dummy(&prepared.device, size));
         Ok(Raster { draw: draw.clone(), pipeline, group, color, depth, dummy })
@@ -153,7 +165,7 @@ impl Maker<'_> {
     }
 }
 
-/// `node/label`, for panics and captures.
+/// `node/label`, for problems and captures.
 fn who(prepared: &Prepared, node: usize, label: &str) -> String {
     format!("{}/{label}", prepared.plan.nodes[node].id)
 }
@@ -162,18 +174,12 @@ fn who(prepared: &Prepared, node: usize, label: &str) -> String {
 pub(crate) fn classes(prepared: &Prepared, node: usize, bind: &[Bind]) -> Vec<(Class, Option<Part>)> {
     let part = |target: Target| prepared.layout.part(&prepared.plan, node, target).clone();
     bind.iter()
-        .enumerate()
-        .map(|(binding, bind)| match bind {
+        .map(|bind| match bind {
             Bind::Uniform(words) => (Class::Uniform((words.len().max(1) as u32 * 4).next_multiple_of(16)), None),
             Bind::Read(target) => (Class::Read, Some(part(*target))),
             Bind::ReadWrite(target) => (Class::ReadWrite, Some(part(*target))),
             Bind::Texture(target) => {
                 let part = part(*target);
-                assert!(
-                    part.storage != Storage::Buffer,
-                    "node {}: binding {binding} binds buffer {target:?} as texture",
-                    prepared.plan.nodes[node].id
-                );
                 (Class::Texture(part.storage), Some(part))
             }
         })

@@ -101,14 +101,14 @@ impl<'a> Bound<'a> {
     pub fn buffer(&self, part: &Part) -> (&wgpu::Buffer, u64) {
         match self.memory(part) {
             (Memory::Buffer(buffer), offset) => (buffer, offset),
-            (Memory::Texture(_), _) => panic!("a buffer command names {part:?}, which is a texture"),
+            (Memory::Texture(_), _) => unreachable!("a buffer command names {part:?}, which is a texture"),
         }
     }
     /// The texture of a part.
     pub fn texture(&self, part: &Part) -> &wgpu::Texture {
         match self.memory(part) {
             (Memory::Texture(texture), _) => texture,
-            (Memory::Buffer(_), _) => panic!("a texture command names {part:?}, which is a buffer"),
+            (Memory::Buffer(_), _) => unreachable!("a texture command names {part:?}, which is a buffer"),
         }
     }
 }

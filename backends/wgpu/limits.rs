@@ -1,6 +1,7 @@
 //! Limits of a plan in wgpu's terms, known before a device exists.
 
 use crate::prepare::{Laid, Request, lay_out};
+use shadowgraph_core::plan::Node;
 use shadowgraph_core::port::Storage;
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::record::{Bind, Command, DeviceLimits};
@@ -12,6 +13,24 @@ pub fn device_limits(limits: &wgpu::Limits) -> DeviceLimits {
         texture_side: limits.max_texture_dimension_2d,
         storage_buffers: limits.max_storage_buffers_per_shader_stage,
     }
+}
+
+/// Storage buffers among the bindings of a command.
+pub(crate) fn storage_buffers(bind: &[Bind]) -> u32 {
+    bind.iter().filter(|bind| matches!(bind, Bind::Read(_) | Bind::ReadWrite(_))).count() as u32
+}
+
+/// Whether a stage may bind so many storage buffers.
+pub(crate) fn check_buffers(node: &Node, buffers: u32, limits: &wgpu::Limits) -> Result<(), Problem> {
+    let most = limits.max_storage_buffers_per_shader_stage;
+    if buffers <= most {
+        return Ok(());
+    }
+    Err(Problem::new(Kind::Unsupported, format!("pass {:?} binds many storage buffers", node.pass))
+        .node(&node.id)
+        .expected(format!("a device with {buffers} in a stage"))
+        .found(most.to_string())
+        .remedy("choose another pass of the stage, another adapter, or `on: Cpu`"))
 }
 
 /// Limits to ask for when the host makes its device, at least WebGPU's defaults; `adapter` is what its adapter can do.
@@ -40,18 +59,8 @@ pub fn required_limits(request: &Request, adapter: &wgpu::Limits) -> Result<wgpu
                 Command::Draw(draw) => (&draw.bind, 16 * draw.color.len() as u32),
                 Command::Zero(_) | Command::Copy { .. } => continue,
             };
-            let buffers = bind.iter().filter(|bind| matches!(bind, Bind::Read(_) | Bind::ReadWrite(_))).count() as u32;
-            if buffers > adapter.max_storage_buffers_per_shader_stage {
-                let node = &request.plan.nodes[index];
-                return Err(Problem::new(
-                    Kind::Unsupported,
-                    format!("pass {:?} binds many storage buffers", node.pass),
-                )
-                .node(&node.id)
-                .expected(format!("a device with {buffers} in a stage"))
-                .found(adapter.max_storage_buffers_per_shader_stage.to_string())
-                .remedy("choose another pass of the stage, another adapter, or `on: Cpu`"));
-            }
+            let buffers = storage_buffers(bind);
+            check_buffers(&request.plan.nodes[index], buffers, adapter)?;
             limits.max_storage_buffers_per_shader_stage = limits.max_storage_buffers_per_shader_stage.max(buffers);
             let of_stage = &mut limits.max_buffers_and_acceleration_structures_per_shader_stage;
             *of_stage = (*of_stage).max(bind.len() as u32);

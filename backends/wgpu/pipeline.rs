@@ -4,6 +4,7 @@ use crate::pool::format;
 use crate::shader::{Class, Entries, Module, join};
 use naga::ShaderStage;
 use shadowgraph_core::port::Storage;
+use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::{Cull, Dispatch, Draw};
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -52,13 +53,21 @@ impl Pipelines {
         Self { device: device.clone(), modules: Mutex::default(), compute: Mutex::default(), render: Mutex::default() }
     }
 
-    /// The pipeline of a dispatch; panics when kernel and recipe disagree.
-    pub fn compute(&self, who: &str, dispatch: &Dispatch, bind: &[Class]) -> Made<wgpu::ComputePipeline> {
+    /// The pipeline of a dispatch.
+    ///
+    /// # Errors
+    /// Kernel and recipe disagree.
+    pub fn compute(
+        &self,
+        who: &str,
+        dispatch: &Dispatch,
+        bind: &[Class],
+    ) -> Result<Made<wgpu::ComputePipeline>, Problem> {
         let source = join(&dispatch.shader);
-        let module = self.module(&source, who);
-        let visible = module.0.visibility(who, &[(dispatch.entry, ShaderStage::Compute)], bind);
+        let module = self.module(&source, who)?;
+        let visible = module.0.visibility(who, &[(dispatch.entry, ShaderStage::Compute)], bind)?;
         let key = ComputeKey { source, entry: dispatch.entry, constants: bits(&dispatch.shader.constants) };
-        once(&self.compute, key, || {
+        Ok(once(&self.compute, key, || {
             let (layout, group) = self.layout(who, bind, &visible);
             let pipeline = self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(who),
@@ -69,16 +78,25 @@ impl Pipelines {
                 cache: None,
             });
             Made { pipeline, bind: group }
-        })
+        }))
     }
 
-    /// The pipeline of a draw whose colour attachments have storages `color`; panics when kernel and recipe disagree.
-    pub fn render(&self, who: &str, draw: &Draw, bind: &[Class], color: &[Storage]) -> Made<wgpu::RenderPipeline> {
+    /// The pipeline of a draw whose colour attachments have storages `color`.
+    ///
+    /// # Errors
+    /// Kernel and recipe disagree.
+    pub fn render(
+        &self,
+        who: &str,
+        draw: &Draw,
+        bind: &[Class],
+        color: &[Storage],
+    ) -> Result<Made<wgpu::RenderPipeline>, Problem> {
         let source = join(&draw.shader);
-        let module = self.module(&source, who);
+        let module = self.module(&source, who)?;
         let mut entries = vec![(draw.vertex, ShaderStage::Vertex)];
         entries.extend(draw.fragment.map(|entry| (entry, ShaderStage::Fragment)));
-        let visible = module.0.visibility(who, &entries as &Entries, bind);
+        let visible = module.0.visibility(who, &entries as &Entries, bind)?;
         let key = RenderKey {
             source,
             entries: (draw.vertex, draw.fragment),
@@ -88,10 +106,10 @@ impl Pipelines {
             cull: draw.cull as u8,
             conservative: draw.conservative,
         };
-        once(&self.render, key, || {
+        Ok(once(&self.render, key, || {
             let (layout, group) = self.layout(who, bind, &visible);
             Made { pipeline: self.draw_pipeline(who, draw, color, &module.1, &layout), bind: group }
-        })
+        }))
     }
 
     fn draw_pipeline(
@@ -152,17 +170,17 @@ impl Pipelines {
         })
     }
 
-    fn module(&self, source: &str, who: &str) -> Arc<(Module, wgpu::ShaderModule)> {
+    fn module(&self, source: &str, who: &str) -> Result<Arc<(Module, wgpu::ShaderModule)>, Problem> {
         let mut modules = open(&self.modules);
         if let Some(module) = modules.get(source) {
-            return module.clone();
+            return Ok(module.clone());
         }
-        let checked = Module::new(source, who);
+        let checked = Module::new(source, who)?;
         let descriptor =
             wgpu::ShaderModuleDescriptor { label: Some(who), source: wgpu::ShaderSource::Wgsl(source.into()) };
         let module = Arc::new((checked, self.device.create_shader_module(descriptor)));
         modules.insert(source.to_owned(), module.clone());
-        module
+        Ok(module)
     }
 
     fn layout(
@@ -223,7 +241,7 @@ fn options<'a>(constants: &'a [(&'a str, f64)]) -> wgpu::PipelineCompilationOpti
     wgpu::PipelineCompilationOptions { constants, ..Default::default() }
 }
 
-/// A panic elsewhere (a recipe that is wrong) leaves these maps whole, so a poisoned lock is taken over.
+/// A panic elsewhere leaves these maps whole, so a poisoned lock is taken over.
 fn open<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
     lock.lock().unwrap_or_else(PoisonError::into_inner)
 }

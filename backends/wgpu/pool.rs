@@ -161,8 +161,7 @@ impl Layout {
     fn mark_indirect(&mut self, plan: &Plan, recipes: &[Option<Recipe>]) {
         for (node, recipe) in recipes.iter().enumerate() {
             for command in recipe.iter().flat_map(|recipe| &recipe.commands) {
-                for target in named(command) {
-                    // Panics here, before anything is allocated, when a recipe names a port its node does not have.
+                for (target, _) in named(command) {
                     let home = self.part(plan, node, target).home;
                     let is_arguments = matches!(command, Command::Dispatch(dispatch)
                         if matches!(dispatch.groups, Groups::Indirect(of, _) if of == target));
@@ -174,7 +173,7 @@ impl Layout {
         }
     }
 
-    /// What `target` of node `node` names; panics when the node has no such port or scratch.
+    /// What `target` of node `node` names: [`crate::recipe`] checked that it is there.
     pub fn part(&self, plan: &Plan, node: usize, target: Target) -> &Part {
         let found = match target {
             Target::Port(port) => {
@@ -185,10 +184,7 @@ impl Layout {
             Target::Counters => self.counters[node].as_ref(),
         };
         let Some(part) = found else {
-            panic!(
-                "node {} ({:?}) names {target:?}, which it does not have",
-                plan.nodes[node].id, plan.nodes[node].pass
-            )
+            unreachable!("node {} names {target:?}, which it does not have", plan.nodes[node].id)
         };
         part
     }

@@ -3,6 +3,7 @@
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, StorageAccess, TypeInner};
 use shadowgraph_core::port::Storage;
+use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::record::Shader;
 
 /// A parsed and validated module.
@@ -33,27 +34,40 @@ pub(crate) fn join(shader: &Shader) -> String {
     shader.pieces.join("\n")
 }
 
+/// A mistake of the pass whose command is `who` (`node/label`).
+pub(crate) fn bad_pass(who: &str, message: impl Into<String>) -> Problem {
+    Problem::new(Kind::BadPass, message).node(who)
+}
+
 impl Module {
-    /// Parses and validates; panics with naga's message, and `who`, on WGSL that is wrong.
-    pub fn new(source: &str, who: &str) -> Self {
-        let naga = match naga::front::wgsl::parse_str(source) {
-            Ok(module) => module,
-            Err(error) => panic!("{who}: the kernel does not parse: {}", error.emit_to_string(source)),
-        };
-        let info = match Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&naga) {
-            Ok(info) => info,
-            Err(error) => panic!("{who}: the kernel is not valid: {}", error.emit_to_string(source)),
-        };
-        Self { naga, info }
+    /// Parses and validates.
+    ///
+    /// # Errors
+    /// WGSL that is wrong, with naga's words and place.
+    pub fn new(source: &str, who: &str) -> Result<Self, Problem> {
+        let wrong = |what: &str, text: String| bad_pass(who, format!("the kernel {what}: {}", text.trim_end()));
+        let naga = naga::front::wgsl::parse_str(source)
+            .map_err(|error| wrong("does not parse", error.emit_to_string(source)))?;
+        let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+            .validate(&naga)
+            .map_err(|error| wrong("is not valid", error.emit_to_string(source)))?;
+        Ok(Self { naga, info })
     }
 
-    /// Stages that use each binding of `bind`. Panics, with `who` and the binding, where the entry points bind or do anything
-    /// else than the recipe says.
-    pub fn visibility(&self, who: &str, entries: &Entries, bind: &[Class]) -> Vec<wgpu::ShaderStages> {
+    /// Stages that use each binding of `bind`.
+    ///
+    /// # Errors
+    /// Entry points that bind or do anything else than the recipe says, with `who` and the binding.
+    pub fn visibility(&self, who: &str, entries: &Entries, bind: &[Class]) -> Result<Vec<wgpu::ShaderStages>, Problem> {
         let mut visible = vec![wgpu::ShaderStages::NONE; bind.len()];
         for (entry, stage) in entries {
             let at = self.naga.entry_points.iter().position(|point| point.name == *entry && point.stage == *stage);
-            let Some(index) = at else { panic!("{who}: the kernel has no {stage:?} entry point {entry}") };
+            let Some(index) = at else {
+                let points = self.naga.entry_points.iter().map(|point| point.name.as_str()).collect::<Vec<_>>();
+                return Err(
+                    bad_pass(who, format!("the kernel has no {stage:?} entry point {entry}")).found(points.join(", "))
+                );
+            };
             let info = self.info.get_entry_point(index);
             for (handle, variable) in self.naga.global_variables.iter() {
                 let (Some(place), used) = (variable.binding, info[handle]) else { continue };
@@ -63,14 +77,13 @@ impl Module {
                 let name = variable.name.as_deref().unwrap_or("?");
                 let class = bind.get(place.binding as usize).filter(|_| place.group == 0);
                 let Some(class) = class else {
-                    panic!(
-                        "{who}: {entry} uses @group({}) @binding({}) {name}, which the recipe does not bind",
-                        place.group, place.binding
-                    )
+                    let at = format!("@group({}) @binding({})", place.group, place.binding);
+                    return Err(bad_pass(who, format!("{entry} uses {at} {name}, which the recipe does not bind")));
                 };
-                if let Err(found) = self.check(variable, *class) {
-                    panic!("{who}: binding {} {name}: the recipe says {class:?}, the kernel {found}", place.binding);
-                }
+                self.check(variable, *class).map_err(|found| {
+                    let at = format!("binding {} {name}", place.binding);
+                    bad_pass(who, format!("{at}: the recipe says {class:?}, the kernel {found}"))
+                })?;
                 visible[place.binding as usize] |= match stage {
                     naga::ShaderStage::Vertex => wgpu::ShaderStages::VERTEX,
                     naga::ShaderStage::Fragment => wgpu::ShaderStages::FRAGMENT,
@@ -79,9 +92,9 @@ impl Module {
             }
         }
         for (binding, class) in bind.iter().enumerate() {
-            self.check_use(who, binding, *class);
+            self.check_use(who, binding, *class)?;
         }
-        visible
+        Ok(visible)
     }
 
     /// Whether a variable is what the recipe binds there.
@@ -101,7 +114,7 @@ impl Module {
 
     /// One set of bindings may serve several entry points, so an entry may leave a binding alone; but some entry point must use
     /// it, and one that the recipe calls written must be written by some.
-    fn check_use(&self, who: &str, binding: usize, class: Class) {
+    fn check_use(&self, who: &str, binding: usize, class: Class) -> Result<(), Problem> {
         let mut used = GlobalUse::empty();
         for (index, _) in self.naga.entry_points.iter().enumerate() {
             for (handle, variable) in self.naga.global_variables.iter() {
@@ -110,11 +123,14 @@ impl Module {
                 }
             }
         }
-        assert!(!used.is_empty(), "{who}: binding {binding}: the recipe says {class:?}, no entry point uses it");
-        if class == Class::ReadWrite {
-            let writes = used.intersects(GlobalUse::WRITE | GlobalUse::ATOMIC);
-            assert!(writes, "{who}: binding {binding}: the recipe says ReadWrite, no entry point writes it");
-        }
+        let idle = if used.is_empty() {
+            "uses"
+        } else if class == Class::ReadWrite && !used.intersects(GlobalUse::WRITE | GlobalUse::ATOMIC) {
+            "writes"
+        } else {
+            return Ok(());
+        };
+        Err(bad_pass(who, format!("binding {binding}: the recipe says {class:?}, no entry point {idle} it")))
     }
 }
 

@@ -285,20 +285,42 @@ static WRITES_INPUT: Pass = pass("writes_input", &ADD, SAME_SIZE, |cx| {
     Ok(())
 });
 
+static NAMES_NOTHING: Pass = pass("names_nothing", &ADD, SAME_SIZE, |cx| {
+    cx.zero(Target::Port("total"));
+    Ok(())
+});
+static BAD_WGSL: Pass = pass("bad_wgsl", &ADD, SAME_SIZE, |cx| {
+    cx.dispatch("add", &[PRELUDE, "fn add_one( {"], "add_one", add_one_bind(1), 1, 64);
+    Ok(())
+});
+static NO_ENTRY: Pass = pass("no_entry", &ADD, SAME_SIZE, |cx| {
+    cx.dispatch("add", &[PRELUDE, ADD_ONE_WGSL], "add_two", add_one_bind(1), 1, 64);
+    Ok(())
+});
+static AS_TEXTURE: Pass = pass("as_texture", &ADD, SAME_SIZE, |cx| {
+    let mut bind = add_one_bind(1);
+    bind[2] = Bind::Texture(Target::Port("sum"));
+    cx.dispatch("add", &[PRELUDE, ADD_ONE_WGSL], "add_one", bind, 1, 64);
+    Ok(())
+});
+
 #[test]
-fn a_recipe_that_disagrees_with_its_kernel_panics_with_node_and_binding() {
-    let name = "a_recipe_that_disagrees_with_its_kernel_panics_with_node_and_binding";
+fn a_recipe_that_disagrees_with_its_kernel_is_a_problem_with_node_and_binding() {
+    let name = "a_recipe_that_disagrees_with_its_kernel_is_a_problem_with_node_and_binding";
     let Some(session) = Session::shared_or_skip(name) else { return };
     for (pass, text) in [
         (&WRONG_ACCESS, "wrong_access/add: binding 2 sum: the recipe says Read"),
         (&TOO_FEW, "too_few/add: add_one uses @group(0) @binding(2) sum, which the recipe does not bind"),
-        (&WRITES_INPUT, "node writes_input (add/writes_input) writes value, which is not an output"),
+        (&WRITES_INPUT, "writes_input: pass add/writes_input writes value, which is not an output"),
+        (&NAMES_NOTHING, "names_nothing: pass add/names_nothing names Port(\"total\"), which it does not have"),
+        (&BAD_WGSL, "bad_wgsl/add: the kernel does not parse: error: "),
+        (&NO_ENTRY, "no_entry/add: the kernel has no Compute entry point add_two; found add_one"),
+        (&AS_TEXTURE, "as_texture: pass add/as_texture names Port(\"sum\") as a texture; expected a buffer"),
     ] {
         let input = [("value", Array::u32([1], vec![1]))];
-        let run = || session.run_node(pass, &Params::default(), [1, 1], &input);
-        let panic = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run)).expect_err(pass.name);
-        let message = panic.downcast_ref::<String>().map_or("", String::as_str);
-        assert!(message.contains(text), "{message}");
+        let problem = session.run_node(pass, &Params::default(), [1, 1], &input).expect_err(pass.name);
+        assert_eq!(problem.kind, Kind::BadPass);
+        assert!(problem.to_string().starts_with(text), "{problem}");
     }
     // The session is still good for the next test.
     let (outputs, _) =

@@ -13,21 +13,33 @@ use shadowgraph_core::problem::Problem;
 use shadowgraph_core::shared::{NO_CELL, NO_TRIANGLE};
 use std::path::Path;
 
+/// What a dump holds.
+pub struct Written {
+    /// Arrays written.
+    pub arrays_count: usize,
+    /// Values of the plan without one array: tables by cell of a run in ranges of view-samples.
+    pub left_out: Vec<String>,
+}
+
 /// Writes the graph's inputs and every live output port of `plan` to `directory`.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn write(directory: &Path, plan: &Plan, inputs: &[(String, Array)], outcome: &Outcome) -> Result<usize, Problem> {
+pub fn write(directory: &Path, plan: &Plan, inputs: &[(String, Array)], outcome: &Outcome) -> Result<Written, Problem> {
     std::fs::create_dir_all(directory).map_err(|error| file_problem(directory, &error))?;
     let rows = ViewRows::of(plan, outcome);
-    let mut index = Vec::new();
+    let (mut index, mut left_out) = (Vec::new(), Vec::new());
     for (name, array) in inputs {
         let port = shadowgraph_core::input::ALL.iter().find(|port| port.name == name);
         let (unit, space) = port.map_or(("", Value::Null), |port| (port.unit, json!(port.space)));
         save(directory, &mut index, Entry { node: "", stage: "", port: name, unit, space }, array)?;
     }
     for (id, slot) in plan.slots.iter().enumerate() {
-        let (Producer::Node(node), Some(array)) = (&slot.producer, outcome.values.try_get(id)) else { continue };
+        let Producer::Node(node) = &slot.producer else { continue };
+        let Some(array) = outcome.values.try_get(id) else {
+            left_out.extend(slot.keep.then(|| slot.name.clone()));
+            continue;
+        };
         let node = &plan.nodes[*node];
         let port = &slot.port;
         let array = rows.trim(plan, outcome, slot, array);
@@ -41,9 +53,10 @@ pub fn write(directory: &Path, plan: &Plan, inputs: &[(String, Array)], outcome:
         save(directory, &mut index, entry, &array)?;
     }
     let path = directory.join("index.json");
-    let text = serde_json::to_string_pretty(&json!({ "graph": plan.name, "arrays": index })).unwrap_or_default();
+    let text = serde_json::to_string_pretty(&json!({ "graph": plan.name, "arrays": index, "left_out": left_out }))
+        .unwrap_or_default();
     std::fs::write(&path, text).map_err(|error| file_problem(&path, &error))?;
-    Ok(index.len())
+    Ok(Written { arrays_count: index.len(), left_out })
 }
 
 struct Entry<'a> {

@@ -74,6 +74,14 @@ pub fn overrides(choice: &GraphChoice, default_backend: Backend, keep: Keep) -> 
     Ok(Overrides { swaps, sets, on, keep, default_backend, alias: !choice.no_alias })
 }
 
+/// How many light samples the graph is made for, if it says so.
+///
+/// # Errors
+/// As [`load_graph`].
+pub fn light_samples(choice: &GraphChoice) -> Result<Option<u32>, Problems> {
+    load_graph(&choice.graph).map(|graph| graph.light_samples())
+}
+
 /// Graph inputs of a run: imports only where there are any.
 pub fn inputs(with_imports: bool) -> Vec<shadowgraph_core::port::Port> {
     input::ALL.iter().filter(|port| with_imports || !port.name.starts_with("imported_")).copied().collect()

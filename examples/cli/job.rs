@@ -1,14 +1,16 @@
 //! Scene, camera, light and view-samples as the command line names them, ready as graph inputs.
 
 use crate::args::SceneChoice;
-use crate::{npy, usage_problem};
+use crate::jitter::Jitter;
+use crate::{jitter, light_choice, npy, usage_problem};
+use shadowgraph_core::accumulation::Standing;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::input;
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::scene::{Camera, Light, Scene};
 use shadowgraph_scenes::View;
-use shadowgraph_scenes::lights::{self, LightSamples};
+use shadowgraph_scenes::lights::{self, LightSamples, Sampling};
 use std::path::Path;
 
 /// Everything a graph is run on.
@@ -22,16 +24,26 @@ pub struct Job {
     pub camera: Camera,
     /// The light.
     pub light: Light,
-    /// Light samples: the light's centre for hard shadows.
+    /// How it is sampled.
+    pub sampling: Sampling,
+    /// Light samples of all sets: the light's centre for hard shadows.
     pub samples: Vec<[f32; 3]>,
-    /// The RGB share of the light that each carries.
+    /// The RGB share of the light that each carries in its set.
     pub weights: Vec<[f32; 3]>,
+    /// Sample sets: one, or one for each pixel of the jitter pattern.
+    pub sets: Vec<LightSamples>,
+    /// Where these sets come from.
+    pub jitter: Jitter,
+    /// Pixels a side of the jitter pattern.
+    pub jitter_side: usize,
     /// Picture width and height, pixels.
     pub image: [usize; 2],
     /// What `choose` may ask.
     pub facts: Facts,
     /// Remarks for the record.
     pub notes: Vec<String>,
+    /// Colour of the light before its texture's mean was taken in.
+    given_color: [f32; 3],
     /// Imported view-samples, if any.
     imports: Vec<(String, Array)>,
 }
@@ -53,7 +65,7 @@ impl Job {
     /// # Errors
     /// As [`Job::load`].
     pub fn with_view(mut scene: Scene, view: View, choice: &SceneChoice) -> Result<Self, Problem> {
-        let View { mut camera, mut light, note } = view;
+        let View { mut camera, light, rect_corners, note } = view;
         if let Some(text) = &choice.eye {
             camera.eye = point("--eye", text)?;
         }
@@ -68,17 +80,6 @@ impl Job {
             }
             camera.fov_y = degrees.to_radians();
         }
-        if let Some(text) = &choice.light {
-            light.position = point("--light", text)?;
-        }
-        if let Some(radius) = choice.light_radius {
-            if !(0.0..=1e12).contains(&radius) {
-                return Err(usage_problem("--light-radius is out of range")
-                    .expected("0..=1e12 scene units")
-                    .found(radius.to_string()));
-            }
-            light.radius = radius;
-        }
         check_camera(&camera)?;
         let mut image = size(&choice.size)?;
         let mut imports = Vec::new();
@@ -92,12 +93,42 @@ impl Job {
         } else {
             shadowgraph_scenes::open_all_parts(&mut scene);
         }
-        let LightSamples { positions: samples, weights } = lights::samples(&light, choice.light_samples as usize);
-        let facts = input::facts(&scene, &samples, !imports.is_empty());
         let mut notes = scene.notes.clone();
         notes.extend(note);
+        let mut light = light_choice::light(light, rect_corners, camera.target, &choice.light, &mut notes)?;
+        let sampling = light_choice::sampling(&light, &choice.light)?;
+        let base = lights::sample(&light, &sampling)?;
+        let sets = jitter::sets(choice.light.jitter, choice.light.jitter_side, &light, &sampling, &base)?;
+        let samples: Vec<_> = sets.iter().flat_map(|set| &set.positions).copied().collect();
+        let weights: Vec<_> = sets.iter().flat_map(|set| &set.weights).copied().collect();
+        if sampling.count > 1 && !lights::has_extent(&light) {
+            notes.push(format!(
+                "the light has no extent: all {} light samples coincide (--light-radius gives it one)",
+                sampling.count
+            ));
+        }
+        // A texture's mean is part of the light's colour from here on: weights are shares of it.
+        let given_color = std::mem::replace(&mut light.color, base.color);
+        let facts = input::facts(&scene, &samples, !imports.is_empty()).with_weights(&base.weights);
         let scene_spec = choice.scene.clone();
-        Ok(Self { scene_spec, scene, camera, light, samples, weights, image, facts, notes, imports })
+        let jitter_side = choice.light.jitter_side as usize;
+        Ok(Self {
+            scene_spec,
+            scene,
+            camera,
+            light,
+            sampling,
+            samples,
+            weights,
+            sets,
+            jitter: choice.light.jitter,
+            jitter_side,
+            image,
+            facts,
+            notes,
+            given_color,
+            imports,
+        })
     }
 
     /// Graph inputs by name.
@@ -107,6 +138,59 @@ impl Job {
         let mut arrays: Vec<_> = arrays.into_iter().map(|(name, array)| (name.to_string(), array)).collect();
         arrays.extend(self.imports.iter().cloned());
         arrays
+    }
+
+    /// Light samples of a view-sample.
+    pub fn light_samples_count(&self) -> usize {
+        self.sets[0].positions.len()
+    }
+
+    /// The graph inputs that differ from sample set to sample set, of one set.
+    pub fn set_inputs(&self, set: usize) -> [(&'static str, Array); 2] {
+        let LightSamples { positions, weights, .. } = &self.sets[set];
+        let rows = |rows: &[[f32; 3]]| Array::f32([rows.len(), 3], rows.as_flattened().to_vec());
+        [(input::LIGHT_SAMPLES.name, rows(positions)), (input::LIGHT_WEIGHTS.name, rows(weights))]
+    }
+
+    /// The same job on each of `sets` disjoint sets of as many light samples, see [`lights::sample_sets`].
+    ///
+    /// # Errors
+    /// The light cannot be sampled so often.
+    pub fn in_sets(&self, sets: usize) -> Result<impl Iterator<Item = Self> + '_, Problem> {
+        let given = self.given_light();
+        let sets = lights::sample_sets(&given, &self.sampling, sets)?;
+        Ok(sets.into_iter().map(|set| {
+            let light = Light { color: set.color, ..self.light.clone() };
+            let (samples, weights) = (set.positions.clone(), set.weights.clone());
+            Self { samples, weights, sets: vec![set], light, ..self.clone() }
+        }))
+    }
+
+    /// The same job with the light samples of another frame: seeds of its own. Frame 0 is the job itself.
+    ///
+    /// # Errors
+    /// The light cannot be sampled with another seed.
+    pub fn in_frame(&self, frame: u32) -> Result<Self, Problem> {
+        let given = self.given_light();
+        // A pattern of seeds takes as many of them as it has sets.
+        let seed = self.sampling.seed.wrapping_add(frame.wrapping_mul(self.sets.len() as u32));
+        let sampling = Sampling { seed, ..self.sampling };
+        let base = lights::sample(&given, &sampling)?;
+        let sets = jitter::sets(self.jitter, self.jitter_side as u32, &given, &sampling, &base)?;
+        let samples = sets.iter().flat_map(|set| &set.positions).copied().collect();
+        let weights = sets.iter().flat_map(|set| &set.weights).copied().collect();
+        let light = Light { color: base.color, ..given };
+        Ok(Self { samples, weights, sets, sampling, light, ..self.clone() })
+    }
+
+    /// What the means of frames are of: everything but the light samples.
+    pub fn standing(&self) -> Standing {
+        Standing::of(&self.scene, &self.camera, self.image, &self.given_light())
+    }
+
+    /// The light in its own colour.
+    fn given_light(&self) -> Light {
+        Light { color: self.given_color, ..self.light.clone() }
     }
 
     /// The same job on view-samples of an earlier run.
@@ -137,7 +221,11 @@ fn wide(v: [f32; 3]) -> [f64; 3] {
     v.map(f64::from)
 }
 
-fn point(flag: &str, text: &str) -> Result<[f32; 3], Problem> {
+/// Three finite numbers.
+///
+/// # Errors
+/// Anything else.
+pub fn point(flag: &str, text: &str) -> Result<[f32; 3], Problem> {
     let numbers: Vec<f32> =
         text.split(',').filter_map(|part| part.trim().parse().ok()).filter(|x: &f32| x.is_finite()).collect();
     <[f32; 3]>::try_from(numbers)

@@ -3,24 +3,34 @@
 
 pub mod args;
 pub mod commands;
+pub mod converged;
 pub mod dump;
 pub mod engine;
+pub mod frames;
 pub mod graph_choice;
+pub mod jitter;
 pub mod job;
+pub mod light_choice;
 pub mod npy;
 pub mod outcome;
 pub mod picture;
+pub mod ranges;
 pub mod record;
 pub mod report;
+pub mod texture;
 pub mod verify;
 
 use shadowgraph_core::problem::{Kind, Place, Problem};
 use std::path::Path;
 
+/// A whole file as the place of a problem.
+pub fn whole_file(path: &Path) -> Place {
+    Place { file: path.display().to_string(), line: 0, column: 0, path: String::new() }
+}
+
 /// A file that cannot be read or written.
 pub fn file_problem(path: &Path, error: &std::io::Error) -> Problem {
-    let place = Place { file: path.display().to_string(), line: 0, column: 0, path: String::new() };
-    Problem::new(Kind::File, error.to_string()).at(place).remedy("check the path and its rights")
+    Problem::new(Kind::File, error.to_string()).at(whole_file(path)).remedy("check the path and its rights")
 }
 
 /// What went wrong on the command line itself.

@@ -5,7 +5,7 @@ use npyz::{NpyFile, WriterBuilder};
 use shadowgraph_core::array::{Array, Element};
 use shadowgraph_core::problem::{Kind, Place, Problem};
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Write};
+use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 /// Writes `array` in its own element type and shape.
@@ -76,8 +76,12 @@ pub fn read_u32(path: &Path) -> Result<Array, Problem> {
 }
 
 fn open(path: &Path) -> Result<(Vec<usize>, NpyFile<BufReader<File>>), Problem> {
-    let file = File::open(path).map_err(|error| file_problem(path, &error))?;
+    let mut file = File::open(path).map_err(|error| file_problem(path, &error))?;
     let length = file.metadata().map_err(|error| file_problem(path, &error))?.len();
+    let header = header_length(&mut file).map_err(|error| file_problem(path, &error))?;
+    if header > length {
+        return Err(wrong(path, "a header within the file", &format!("{header} bytes of {length}")));
+    }
     let file = NpyFile::new(BufReader::new(file)).map_err(|error| file_problem(path, &error))?;
     if file.order() != npyz::Order::C && file.shape().len() > 1 {
         return Err(wrong(path, "row-major (C) order", "column-major (Fortran) order"));
@@ -90,6 +94,17 @@ fn open(path: &Path) -> Result<(Vec<usize>, NpyFile<BufReader<File>>), Problem> 
     }
 }
 
+/// What the file says its header's length is, before anyone makes room for it. The file is at its start again.
+fn header_length(file: &mut File) -> std::io::Result<u64> {
+    let mut start = [0; 12];
+    file.read_exact(&mut start)?;
+    file.seek(SeekFrom::Start(0))?;
+    Ok(match start[6] {
+        1 => u64::from(u16::from_le_bytes([start[8], start[9]])),
+        _ => u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]])),
+    })
+}
+
 fn type_text(file: &NpyFile<BufReader<File>>) -> String {
     file.dtype().descr().trim_matches('\'').to_string()
 }
@@ -97,4 +112,58 @@ fn type_text(file: &NpyFile<BufReader<File>>) -> String {
 fn wrong(path: &Path, expected: &str, found: &str) -> Problem {
     let place = Place { file: path.display().to_string(), line: 0, column: 0, path: String::new() };
     Problem::new(Kind::BadValue, "array does not fit").at(place).expected(expected).found(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn in_file<T>(bytes: &[u8], read: impl Fn(&Path) -> T) -> T {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), bytes).unwrap();
+        read(file.path())
+    }
+
+    fn whole() -> Vec<u8> {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        write(file.path(), &Array::f32([5, 3], (0..15).map(|x| x as f32).collect())).unwrap();
+        std::fs::read(file.path()).unwrap()
+    }
+
+    #[test]
+    fn a_header_that_promises_more_than_there_is_is_refused_before_it_is_read() {
+        let mut bytes = whole();
+        (bytes[6], bytes[7]) = (2, 0);
+        bytes[8..12].copy_from_slice(&[0xff; 4]);
+        let problem = in_file(&bytes, |path| read_f32(path, 3)).unwrap_err().to_string();
+        assert!(problem.contains("expected a header within the file; found 4294967295 bytes"), "{problem}");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+        #[test]
+        fn damaged_files_end_in_an_array_or_a_problem_with_the_file(
+            damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+            cut in prop::option::of(any::<prop::sample::Index>()),
+        ) {
+            let mut bytes = whole();
+            for (at, value) in damage {
+                let at = at.index(bytes.len());
+                bytes[at] = value;
+            }
+            if let Some(cut) = cut {
+                bytes.truncate(cut.index(bytes.len()));
+            }
+            for columns in [0, 3] {
+                match in_file(&bytes, |path| read_f32(path, columns)) {
+                    Ok(array) => prop_assert!(array.bytes() <= 4 * bytes.len()),
+                    Err(problem) => prop_assert!(problem.place.is_some(), "{}", problem),
+                }
+            }
+            if let Err(problem) = in_file(&bytes, read_u32) {
+                prop_assert!(problem.place.is_some(), "{}", problem);
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! What a run gives back, whichever backends ran it.
 
 use serde::Serialize;
+use shadowgraph_core::plan::{Node, Plan};
 use shadowgraph_cpu::Store;
 
 /// Values by slot, and what each node did.
@@ -14,6 +15,50 @@ pub struct Outcome {
     pub frames_millis: Vec<f64>,
     /// Timed runs; with more than one there was a warm-up.
     pub runs_count: u32,
+}
+
+impl Outcome {
+    /// Of a plan that has not run.
+    pub fn new(plan: &Plan) -> Self {
+        let record = |node: &Node| NodeRecord {
+            node: node.id.clone(),
+            stage: node.pass.stage.name,
+            pass: node.pass.name,
+            on: node.on,
+            clock: "",
+            millis: Vec::new(),
+            bytes: 0,
+            counts: Vec::new(),
+        };
+        Self {
+            values: Store::new(plan),
+            nodes: plan.nodes.iter().map(record).collect(),
+            frames_millis: Vec::new(),
+            runs_count: 0,
+        }
+    }
+
+    /// Adds the times of a further run of the same plan; bytes and counts are the last run's.
+    pub fn append_times(&mut self, other: Self) {
+        self.frames_millis.extend(other.frames_millis);
+        self.runs_count += other.runs_count;
+        for (node, mut other) in self.nodes.iter_mut().zip(other.nodes) {
+            let mut millis = std::mem::take(&mut node.millis);
+            millis.append(&mut other.millis);
+            *node = NodeRecord { millis, ..other };
+        }
+    }
+
+    /// Takes another run of the same plan for a further part of this one: times add up, bytes and counts are the last run's.
+    pub fn add_run(&mut self, other: Self) {
+        let sum = |times: &[f64], more: &[f64]| vec![times.iter().chain(more).sum()];
+        self.frames_millis = sum(&self.frames_millis, &other.frames_millis);
+        self.runs_count = 1;
+        for (node, other) in self.nodes.iter_mut().zip(other.nodes) {
+            let millis = sum(&node.millis, &other.millis);
+            *node = NodeRecord { millis, ..other };
+        }
+    }
 }
 
 /// One node in a run's record.

@@ -72,10 +72,20 @@ pub struct SceneRecord {
     pub bounds: Option<[[f32; 3]; 2]>,
     /// Camera position.
     pub eye: [f32; 3],
-    /// Light position.
+    /// Light position: its centre.
     pub light: [f32; 3],
+    /// What shines: `point`, `sphere`, `disc`, ...
+    pub light_shape: &'static str,
+    /// Bound of the light around its position, scene units; 0 for a point.
+    pub light_radius: f32,
+    /// Linear RGB, the mean of a texture taken in.
+    pub light_color: [f32; 3],
     /// Light samples.
     pub light_samples_count: usize,
+    /// How they are spread.
+    pub light_generator: &'static str,
+    /// Which of equally good sets they are.
+    pub light_seed: u32,
 }
 
 /// A node in a record: its times as a spread.
@@ -111,7 +121,12 @@ impl RunRecord {
                 bounds: job.scene.bounds(),
                 eye: job.camera.eye,
                 light: job.light.position,
-                light_samples_count: job.samples.len(),
+                light_shape: job.light.shape.name(),
+                light_radius: job.light.radius,
+                light_color: job.light.color,
+                light_samples_count: job.light_samples_count(),
+                light_generator: job.sampling.generator.name(),
+                light_seed: job.sampling.seed,
             },
             facts: job.facts.clone(),
             left_out: plan.left_out.clone(),

@@ -1,6 +1,6 @@
 //! Tables and progress for people.
 
-use crate::record::RunRecord;
+use crate::record::{RunRecord, SceneRecord};
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets::UTF8_BORDERS_ONLY};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
@@ -40,7 +40,7 @@ pub fn bytes_text(bytes: usize) -> String {
 pub fn run_text(record: &RunRecord) -> String {
     let scene = &record.scene;
     let mut text = format!(
-        "{} on {}{}: {} triangles, {} of {} parts closed, {}x{} pixels, {} light sample{}\n",
+        "{} on {}{}: {} triangles, {} of {} parts closed, {}x{} pixels, {}\n",
         record.graph,
         scene.name,
         if scene.view.is_empty() { String::new() } else { format!(" ({})", scene.view) },
@@ -49,8 +49,7 @@ pub fn run_text(record: &RunRecord) -> String {
         scene.parts_count,
         record.size[0],
         record.size[1],
-        scene.light_samples_count,
-        if scene.light_samples_count == 1 { "" } else { "s" },
+        light_text(scene),
     );
     let device = &record.device;
     text.push_str(&match device.backend {
@@ -78,6 +77,13 @@ pub fn run_text(record: &RunRecord) -> String {
         text.push_str(&format!("note: {note}\n"));
     }
     text
+}
+
+fn light_text(scene: &SceneRecord) -> String {
+    match scene.light_samples_count {
+        1 => "1 light sample".into(),
+        count => format!("{count} light samples ({}, {})", scene.light_shape, scene.light_generator),
+    }
 }
 
 fn nodes_table(record: &RunRecord) -> Table {

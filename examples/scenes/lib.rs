@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod builtin;
+pub mod closed_form;
 pub mod export;
 pub mod gltf;
 pub mod lights;

@@ -18,6 +18,8 @@ pub struct View {
     pub camera: Camera,
     /// What casts the shadows.
     pub light: Light,
+    /// Corners of a rectangular light in its place, in order around it, where the views file has them.
+    pub rect_corners: Option<[[f32; 3]; 4]>,
     /// Sentences for the record: what was assumed where nothing was given.
     pub note: Vec<String>,
 }
@@ -40,7 +42,7 @@ pub fn choose_view(scene: &Scene, spec: &str, views: Option<&Path>, view: Option
             let mut note = Vec::new();
             let camera = own_camera(scene, spec, view, &mut note)?;
             let light = own_light(scene, &mut note);
-            Ok(View { camera, light, note })
+            Ok(View { camera, light, rect_corners: None, note })
         }
     }
 }
@@ -50,7 +52,7 @@ pub fn choose_from(scene: &Scene, spec: &str, views: &Views, view: Option<&str>)
     let found = views.view(short_name(spec), view)?;
     let mut note = Vec::new();
     let light = found.light.clone().unwrap_or_else(|| own_light(scene, &mut note));
-    Ok(View { camera: found.camera.clone(), light, note })
+    Ok(View { camera: found.camera.clone(), light, rect_corners: found.rect_corners, note })
 }
 
 /// Names that [`choose_view`] takes: those of the views file, else of the scene's cameras; empty where the scene has none.
@@ -108,11 +110,11 @@ fn own_camera(scene: &Scene, spec: &str, name: Option<&str>, notes: &mut Vec<Str
 fn own_light(scene: &Scene, notes: &mut Vec<String>) -> Light {
     match scene.lights.as_slice() {
         [] => {
-            notes.push("no light given: a point above and beside the scene's bounding box is used".into());
+            notes.push("no light given: a small ball above and beside the scene's bounding box is used".into());
             let (middle, diagonal) = frame(scene);
             // Up by 0.87 diagonals from the middle, which is above the top: half the height is half a diagonal at most.
             let position = middle + vec3(0.45, 1.0, 0.3).normalize() * diagonal;
-            Light { name: "frame".into(), position: position.to_array(), radius: 0.02 * diagonal, color: [1.0; 3] }
+            Light::sphere("frame", position.to_array(), 0.02 * diagonal)
         }
         [only] => only.clone(),
         [first, ..] => {

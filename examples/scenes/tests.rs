@@ -57,6 +57,34 @@ fn what_is_wrong_in_a_views_file_is_located() {
 }
 
 #[test]
+fn a_views_file_may_shape_and_colour_its_light() {
+    let light = |fields: &str| {
+        let text = VIEWS.replacen("\"radius\": 0.5,", fields, 1);
+        Views::parse("v.json", &text).map(|views| views.view("columns", None).unwrap().light.clone().unwrap())
+    };
+    let plain = light("").unwrap();
+    assert_eq!((plain.shape.name(), plain.color), ("point", [1.0; 3]));
+    let corners = light(r#""shape": "rectangle", "color": [1, 0.5, 0],"#).unwrap();
+    assert_eq!(
+        (corners.shape.name(), corners.position, corners.color),
+        ("rectangle", [0.5, 0.5, 0.0], [1.0, 0.5, 0.0])
+    );
+    let disc = light(r#""shape": "disc", "half_axes": [[2, 0, 0], [0, 0, 2]],"#).unwrap();
+    assert_eq!((disc.shape.name(), disc.position, disc.radius), ("disc", [2.0, 8.0, 3.0], 2.0));
+    let ball = light(r#""shape": "ellipsoid", "half_axes": [[1, 0, 0], [0, 4, 0], [0, 0, 0.25]],"#).unwrap();
+    assert_eq!((ball.shape.name(), ball.radius), ("ellipsoid", 4.0));
+    let wrong = |fields: &str| light(fields).expect_err(fields).to_string();
+    assert_eq!(
+        wrong(r#""shape": "disk","#),
+        "v.json: scenes.columns.views[0].light.shape: no such shape; expected point, sphere, disc, rectangle, ellipsoid; \
+         found disk (nearest: disc)"
+    );
+    assert!(wrong(r#""shape": "disc", "half_axes": [[1, 0, 0]],"#).contains("2 half axes; found 1 half axes"));
+    assert!(wrong(r#""shape": "ellipsoid","#).contains("3 half axes; found 0"));
+    assert!(wrong(r#""color": [1, -1, 0],"#).contains("light.color: no such colour"));
+}
+
+#[test]
 fn without_any_view_the_box_is_framed_and_the_light_is_outside() {
     let mut scene = builtin::build("columns").unwrap();
     assert_eq!(choose_view(&scene, "x.glb", None, None).unwrap().camera, scene.cameras[0]);

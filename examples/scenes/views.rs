@@ -7,12 +7,21 @@
 //! ```
 //! World space, scene units; `fov_y_deg` is the full vertical angle. SCENE is the scene file's name without its ending, or
 //! a built-in scene's name. `up`, `light`, `radius` and `rect_corners` may be absent. Other keys are passed over.
+//!
+//! A light is a ball of its radius around its position unless it says otherwise:
+//!
+//! | Key of `light` | Meaning |
+//! |---|---|
+//! | `"shape"` | `"point"`, `"sphere"`, `"disc"`, `"rectangle"` or `"ellipsoid"` |
+//! | `"half_axes"` | from the centre to the edge: two for a disc or rectangle, three for an ellipsoid |
+//! | `"rect_corners"` | a rectangle in place of `half_axes`; also the one that `--light-shape rectangle` takes |
+//! | `"color"` | linear RGB |
 
 use crate::nearest::nearest;
 use glam::Vec3;
 use serde::Deserialize;
 use shadowgraph_core::problem::{Kind, Place, Problem};
-use shadowgraph_core::scene::{Camera, Light};
+use shadowgraph_core::scene::{Camera, Light, LightShape};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -61,6 +70,9 @@ struct LightText {
     #[serde(default)]
     radius: f32,
     rect_corners: Option<[[f32; 3]; 4]>,
+    shape: Option<String>,
+    half_axes: Option<Vec<[f32; 3]>>,
+    color: Option<[f32; 3]>,
 }
 
 fn up() -> [f32; 3] {
@@ -129,26 +141,28 @@ impl Views {
     }
 }
 
-/// A view, or the field that is wrong and why.
-fn check(text: ViewText) -> Result<View, (&'static str, Problem)> {
-    let wrong = |field, message: &str, expected: &str, found: String| {
-        (field, Problem::new(Kind::BadValue, message).expected(expected).found(found))
-    };
-    let finite = |field, point: [f32; 3]| match point.iter().all(|x| x.abs() <= 1e12) {
+/// The field that is wrong, and why.
+type Wrong = (&'static str, Problem);
+
+fn wrong(field: &'static str, message: &str, expected: &str, found: String) -> Wrong {
+    (field, Problem::new(Kind::BadValue, message).expected(expected).found(found))
+}
+
+fn finite(field: &'static str, point: [f32; 3]) -> Result<(), Wrong> {
+    match point.iter().all(|x| x.abs() <= 1e12) {
         true => Ok(()),
         false => Err(wrong(field, "a number too large", "at most 1e12", format!("{point:?}"))),
-    };
+    }
+}
+
+fn check(text: ViewText) -> Result<View, Wrong> {
     finite("eye", text.eye)?;
     finite("target", text.target)?;
     finite("up", text.up)?;
     let forward = Vec3::from(text.target) - Vec3::from(text.eye);
     if forward == Vec3::ZERO {
-        return Err(wrong(
-            "target",
-            "the camera looks at itself",
-            "a target apart from the eye",
-            format!("{:?}", text.eye),
-        ));
+        let expected = "a target apart from the eye";
+        return Err(wrong("target", "the camera looks at itself", expected, format!("{:?}", text.eye)));
     }
     let sideways = forward.as_dvec3().normalize().cross(Vec3::from(text.up).as_dvec3().normalize_or_zero());
     if sideways.length() < 1e-6 {
@@ -158,25 +172,48 @@ fn check(text: ViewText) -> Result<View, (&'static str, Problem)> {
     if !(text.fov_y_deg > 0.0 && text.fov_y_deg < 180.0) {
         return Err(wrong("fov_y_deg", "no such angle", "degrees between 0 and 180", text.fov_y_deg.to_string()));
     }
-    let mut rect_corners = None;
-    let mut light = None;
-    if let Some(text_light) = text.light {
-        finite("light.position", text_light.position)?;
-        for corner in text_light.rect_corners.iter().flatten() {
-            finite("light.rect_corners", *corner)?;
-        }
-        if !(0.0..=1e12).contains(&text_light.radius) {
-            return Err(wrong("light.radius", "no such radius", "0 or more", text_light.radius.to_string()));
-        }
-        rect_corners = text_light.rect_corners;
-        light = Some(Light {
-            name: text.name.clone(),
-            position: text_light.position,
-            radius: text_light.radius,
-            color: [1.0; 3],
-        });
-    }
+    let rect_corners = text.light.as_ref().and_then(|light| light.rect_corners);
+    let light = text.light.map(|light| check_light(&text.name, light)).transpose()?;
     let camera =
         Camera { name: text.name, eye: text.eye, target: text.target, up: text.up, fov_y: text.fov_y_deg.to_radians() };
     Ok(View { camera, light, rect_corners })
+}
+
+fn check_light(name: &str, text: LightText) -> Result<Light, Wrong> {
+    finite("light.position", text.position)?;
+    for corner in text.rect_corners.iter().flatten() {
+        finite("light.rect_corners", *corner)?;
+    }
+    for axis in text.half_axes.iter().flatten() {
+        finite("light.half_axes", *axis)?;
+    }
+    if !(0.0..=1e12).contains(&text.radius) {
+        return Err(wrong("light.radius", "no such radius", "0 or more", text.radius.to_string()));
+    }
+    let color = text.color.unwrap_or([1.0; 3]);
+    if !color.iter().all(|part| (0.0..=1e12).contains(part)) {
+        return Err(wrong("light.color", "no such colour", "three numbers of 0 or more", format!("{color:?}")));
+    }
+    let shaped = |shape| Light::shaped(name, text.position, shape);
+    let axes = text.half_axes.as_deref().unwrap_or_default();
+    let wants = |count: usize| {
+        let found = format!("{} half axes", axes.len());
+        wrong("light.half_axes", "the light's axes do not fit its shape", &format!("{count} half axes"), found)
+    };
+    let light = match (text.shape.as_deref(), axes, text.rect_corners) {
+        (Some("point"), _, _) => Light::point(name, text.position),
+        (Some("sphere") | None, _, _) => Light::sphere(name, text.position, text.radius),
+        (Some("disc"), [u, v], _) => shaped(LightShape::Disc { half_axes: [*u, *v] }),
+        (Some("rectangle"), [u, v], _) => shaped(LightShape::Rectangle { half_axes: [*u, *v] }),
+        (Some("rectangle"), [], Some(corners)) => Light::rectangle(name, corners),
+        (Some("ellipsoid"), [u, v, w], _) => shaped(LightShape::Ellipsoid { half_axes: [*u, *v, *w] }),
+        (Some("disc" | "rectangle"), _, _) => return Err(wants(2)),
+        (Some("ellipsoid"), _, _) => return Err(wants(3)),
+        (Some(other), _, _) => {
+            let names = ["point", "sphere", "disc", "rectangle", "ellipsoid"];
+            let (field, problem) = wrong("light.shape", "no such shape", &names.join(", "), other.into());
+            return Err((field, problem.remedy(nearest(other, names.into_iter()))));
+        }
+    };
+    Ok(light.colored(color))
 }

@@ -22,8 +22,9 @@ list_fill: cell slot list_offset -> list_entries
 casters: triangles triangle_flags light_samples -> caster_state
 conservative_raster: triangles caster_state light_samples light_frame list_length list_far -> pair_cell pair_slot caster_length
 caster_fill: pair_cell pair_slot caster_offset -> caster_entries
-visibility: triangles caster_state light_samples position sample_state cell list_length list_offset list_entries caster_offset caster_entries lu? lu_layout? -> mask
 lu_table: light_samples -> lu lu_layout
+bvh_build: triangles caster_state -> bvh_nodes bvh_order
+visibility: triangles caster_state light_samples position sample_state cell list_length list_offset list_entries caster_offset caster_entries lu? lu_layout? bvh_nodes? bvh_order? -> mask
 light_depth: triangles caster_state light_frame -> depth
 shadow_lookup: depth light_frame position sample_state -> mask visible
 combine: mask sample_state -> visible
@@ -56,19 +57,24 @@ caster_fill/direct cw - -
 lu_table/angles_distance cw - size
 lu_table/planar cw - size
 lu_table/certain_uncertain cw - size
-visibility/planes cw lu,lu_layout -
-visibility/lu cw - -
-visibility/lu_planar cw - -
-visibility/lu_certain cw - -
-visibility/fused cw caster_offset,caster_entries,lu,lu_layout -
-visibility/fused_draw w caster_offset,caster_entries,lu,lu_layout -
-visibility/half_planes cw list_length,lu,lu_layout -
+visibility/planes cw lu,lu_layout,bvh_nodes,bvh_order -
+visibility/lu cw bvh_nodes,bvh_order -
+visibility/lu_planar cw bvh_nodes,bvh_order -
+visibility/lu_certain cw bvh_nodes,bvh_order -
+visibility/fused cw caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
+visibility/fused_draw w caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
+visibility/half_planes cw list_length,lu,lu_layout,bvh_nodes,bvh_order -
 visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout -
-visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout contact_ulps
+visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order contact_ulps
+visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
+bvh_build/ploc c - -
+visibility/multi_shadow_map cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
 light_depth/first_surface cw - size,bias
 shadow_lookup/compare cw - -
 shadow_lookup/pcf cw - taps
+shadow_lookup/pcss cw - -
 combine/popcount cw - -
+combine/weighted cw - -
 bent_light/adjacent_faces cw - -
 shade/bent_lambert cw - -
 blur/box cw - -
@@ -98,6 +104,8 @@ fn port(name: &'static str) -> Port {
         "depth" => Port::new(Out, name, F32, name, "F D D").storage(Storage::DepthTexture),
         "pair_cell" => Port::new(Out, name, U32, "cell", "E"),
         "pair_slot" => Port::new(Out, name, U32, "slot", "E"),
+        "bvh_nodes" => Port::new(Out, name, U32, "bvh_node", "N 8"),
+        "bvh_order" => Port::new(Out, name, U32, "bvh_triangle", "T"),
         "caster_entries" => Port::new(Out, name, U32, "caster", "E"),
         _ => Port::new(Out, name, U32, name, "P"),
     }

@@ -128,3 +128,24 @@ fn axes_are_checked() {
     let problems = crate::variants(&graph, &Overrides::default()).unwrap_err();
     assert_eq!(problems.to_string(), "one.ron:1:41: axes make too many variants; expected at most 10000; found 10201");
 }
+
+#[test]
+fn light_samples_are_the_files_own_else_its_bases() {
+    let count = |files: &[(&str, &str)]| load_files(files).unwrap().light_samples();
+    let base = "(version: 1, light_samples: 256, nodes: [], outputs: {\"a\": \"triangles\"})";
+    assert_eq!(count(&[("one.ron", base)]), Some(256));
+    assert_eq!(count(&[("one.ron", "(version: 1, base: \"two.ron\")"), ("two.ron", base)]), Some(256));
+    let own = "(version: 1, base: \"two.ron\", light_samples: 1)";
+    assert_eq!(count(&[("one.ron", own), ("two.ron", base)]), Some(1));
+    assert_eq!(count(&[("one.ron", "(version: 1, base: \"hard\")")]), None);
+    for (value, found) in [("0", "0"), ("4097", "4097"), ("2.5", "2.5"), ("\"256\"", "\"256\"")] {
+        let text = base.replace("256", value);
+        assert_eq!(
+            refused(&[("one.ron", &text)]),
+            [format!(
+                "one.ron:1:29: `light_samples` is no number of light samples; expected a whole number in 1..=4096; \
+                 found {found}"
+            )]
+        );
+    }
+}

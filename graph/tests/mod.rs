@@ -32,6 +32,7 @@ fn load_builtin(name: &str) -> Graph {
 fn facts() -> Facts {
     Facts {
         light_is_point: true,
+        light_is_textured: false,
         light_is_planar: true,
         light_inside_scene: false,
         all_casters_closed: false,

@@ -21,7 +21,8 @@ fn hard_runs_in_the_order_of_its_file() {
         alternatives,
         [
             "view_samples/import: view_samples_imported does not hold",
-            "light_frame/six_faces: light_inside_scene does not hold"
+            "light_frame/six_faces: light_inside_scene does not hold",
+            "combine/weighted: light_is_textured does not hold"
         ]
     );
 }
@@ -33,7 +34,7 @@ fn every_built_in_graph_plans_where_its_passes_run() {
         let wgpu = Overrides { default_backend: Backend::Wgpu, ..Overrides::default() };
         let (on_cpu, on_wgpu) = (plan_of(&graph, &Overrides::default()), plan_of(&graph, &wgpu));
         assert_eq!(on_cpu.is_ok(), name != "hard_draw", "{name}: {on_cpu:?}");
-        assert_eq!(on_wgpu.is_ok(), !name.starts_with("truth"), "{name}: {on_wgpu:?}");
+        assert_eq!(on_wgpu.is_ok(), !name.starts_with("truth") && name != "soft_shafts", "{name}: {on_wgpu:?}");
     }
 }
 

@@ -1,6 +1,8 @@
 //! Stage `bent_light`: The light term at corners that is black on every face turned away (Sintorn 2008, section 4.3, Shading).
 
 pub mod adjacent_faces;
+mod around;
+pub mod bounding_box;
 pub mod own_face;
 
 use crate::ports;
@@ -21,12 +23,13 @@ pub static STAGE: Stage = Stage {
         input::FACE_OFFSET.read(),
         input::FACES.read(),
         input::LIGHT.read(),
+        input::LIGHT_SAMPLES.read(),
         ports::CORNER_LIGHT,
     ],
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&adjacent_faces::PASS, &own_face::PASS];
+pub const PASSES: &[&Pass] = &[&adjacent_faces::PASS, &bounding_box::PASS, &own_face::PASS];
 
 fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
     vec![(ports::CORNER_LIGHT.name, vec![cx.dim(input::TRIANGLES.name, 0), 3])]

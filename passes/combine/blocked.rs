@@ -1,8 +1,8 @@
-//! How many light samples a mask blocks: what both passes start from.
+//! How many light samples a mask blocks: what the passes that count start from.
 
 use crate::ports;
 use rayon::prelude::*;
-use shadowgraph_core::array::Array;
+use shadowgraph_core::array::{Array, Element};
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::input;
 use shadowgraph_core::problem::{Kind, Problem};
@@ -38,9 +38,25 @@ pub fn combine(cx: &mut CpuCx, visible: impl Fn(u32, u32) -> f32 + Sync) {
     };
     let fractions: Vec<f32> = states.par_iter().enumerate().with_min_len(CHUNK).map(fraction).collect();
     cx.put(ports::VISIBLE.name, Array::f32([fractions.len()], fractions));
+    cx.put(ports::VISIBLE_COLOR.name, Array::zeros(Element::F32, [0, 3]));
 }
 
-/// Records the one dispatch of a pass of this stage.
+/// Refuses masks that one invocation cannot walk in `steps` loop steps.
+///
+/// # Errors
+/// Names the mask, what is allowed and the remedy.
+pub fn check_steps(steps: usize) -> Result<(), Problem> {
+    if steps <= LOOP_STEPS {
+        return Ok(());
+    }
+    Err(Problem::new(Kind::Unsupported, "too many light samples for one invocation")
+        .port(ports::MASK.name)
+        .expected(format!("at most {LOOP_STEPS} loop steps"))
+        .found(steps.to_string())
+        .remedy("set `on: Cpu`, or take fewer light samples"))
+}
+
+/// Records the one dispatch of a pass that counts.
 pub fn record_combine(
     cx: &mut GpuCx,
     label: &'static str,
@@ -48,13 +64,7 @@ pub fn record_combine(
     entry: &'static str,
 ) -> Result<(), Problem> {
     let (count, words) = (cx.dim(ports::SAMPLE_STATE.name, 0), cx.dim(ports::MASK.name, 1));
-    if words > LOOP_STEPS {
-        return Err(Problem::new(Kind::Unsupported, "too many mask words for one invocation")
-            .port(ports::MASK.name)
-            .expected(format!("at most {LOOP_STEPS}"))
-            .found(words.to_string())
-            .remedy("set `on: Cpu`, or take fewer light samples"));
-    }
+    check_steps(words)?;
     let samples = cx.dim(input::LIGHT_SAMPLES.name, 0);
     let bind = vec![
         Uniform(vec![count as u32, words as u32, samples as u32]),

@@ -8,8 +8,6 @@ use shadowgraph_core::array::Array;
 use shadowgraph_core::input;
 use shadowgraph_core::param::{ParamSpec, Range};
 use shadowgraph_core::pass::Pass;
-use shadowgraph_core::problem::{Kind, Problem};
-use shadowgraph_core::record::GpuCx;
 use shadowgraph_core::size::SizeCx;
 use shadowgraph_core::stage::Stage;
 
@@ -34,22 +32,6 @@ const SIZE: ParamSpec = ParamSpec {
 fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
     let side = cx.params.u32(SIZE.name) as usize;
     vec![(ports::DEPTH.name, vec![cx.dim(ports::LIGHT_FRAME.name, 0), side, side])]
-}
-
-/// The side of the map, if the device has textures of that size.
-///
-/// # Errors
-/// A side above the device's limit.
-fn side_on_device(cx: &GpuCx) -> Result<u32, Problem> {
-    let (side, limit) = (cx.params().u32(SIZE.name), cx.limits().texture_side);
-    if side > limit {
-        return Err(Problem::new(Kind::Unsupported, "the shadow map is larger than the device's largest texture")
-            .port(SIZE.name)
-            .expected(format!("at most {limit}"))
-            .found(side.to_string())
-            .remedy("set a smaller size, or `on: Cpu` for this node"));
-    }
-    Ok(side)
 }
 
 /// The output of `layers` of `side` x `side` texels.

@@ -62,4 +62,11 @@ impl Settings {
             falloff_distance: falls_off.then(|| params.f32(FALLOFF_DISTANCE.name)),
         }
     }
+    /// What the colour of a light is divided by that lies `offset` away: 1, or the square of the distance.
+    pub fn weakening(&self, offset: Vec3) -> f32 {
+        self.falloff_distance.map_or(1.0, |distance| {
+            let distances = (offset / distance).length().max(1e-6);
+            distances * distances
+        })
+    }
 }

@@ -1,6 +1,7 @@
 //! What is seen at a view-sample, and the picture of all of them; the CPU side of `surface.wgsl`.
 
 use super::params::Settings;
+use super::reflection::Reflection;
 use crate::ports;
 use crate::shared::shading::{Corners, face_normal, unit, weights};
 use glam::Vec3;
@@ -31,19 +32,28 @@ pub struct Surface {
     pub albedo: Vec3,
     /// Colour of the light times its falloff.
     pub light: Vec3,
-    /// Visible fraction of the light.
-    pub visible: f32,
+    /// Visible share of the light in each channel; 1 where the pass does not read it.
+    pub visible: Vec3,
 }
 
-/// Shades every view-sample with `radiance` and puts the picture: `[H, W, 4]`, background where there is none.
-pub fn picture(cx: &mut CpuCx, radiance: impl Fn(&Surface) -> Vec3 + Sync) {
+/// Light from the centre that a surface reflects, but for visibility and ambient.
+pub fn reflected(surface: &Surface, eye: Vec3, reflection: Reflection) -> Vec3 {
+    let toward_eye = unit(eye - surface.position);
+    let [cosine, highlight] = reflection.terms(surface.shading_normal, surface.toward_light, toward_eye);
+    surface.light * (surface.albedo * cosine + Vec3::splat(highlight))
+}
+
+/// Shades every view-sample with `radiance`, which gets its row and adds to ambient light, and puts the picture: `[H, W, 4]`,
+/// background where there is none.
+pub fn picture(cx: &mut CpuCx, radiance: impl Fn(usize, &Surface) -> Vec3 + Sync) {
     let settings = Settings::new(cx.params());
     let [width, height] = cx.image();
     let position = cx.input(ports::POSITION.name).as_vec3();
     let normal = cx.input(ports::NORMAL.name).as_vec3();
     let triangle = cx.input(ports::TRIANGLE.name).as_u32();
     let pixel = cx.input(ports::PIXEL.name).as_u32();
-    let visible = cx.input(ports::VISIBLE.name).as_f32();
+    let visible = cx.optional(ports::VISIBLE.name).map(Array::as_f32);
+    let visible_color = cx.optional(ports::VISIBLE_COLOR.name).map(Array::as_vec3).filter(|rows| !rows.is_empty());
     let triangles: &[Corners] = bytemuck::cast_slice(cx.input(input::TRIANGLES.name).as_f32());
     let corner_normals: &[Corners] = bytemuck::cast_slice(cx.input(input::TRIANGLE_NORMALS.name).as_f32());
     let albedo = cx.input(input::TRIANGLE_ALBEDO.name).as_vec3();
@@ -64,10 +74,7 @@ pub fn picture(cx: &mut CpuCx, radiance: impl Fn(&Surface) -> Vec3 + Sync) {
             false => smooth_normal,
         };
         let offset = centre - position;
-        let light = settings.falloff_distance.map_or(color, |distance| {
-            let distances = (offset / distance).length().max(1e-6);
-            color / (distances * distances)
-        });
+        let light = color / settings.weakening(offset);
         Surface {
             position,
             triangle,
@@ -78,7 +85,11 @@ pub fn picture(cx: &mut CpuCx, radiance: impl Fn(&Surface) -> Vec3 + Sync) {
             toward_light: unit(offset),
             albedo: Vec3::from(albedo[triangle]),
             light,
-            visible: visible[row],
+            visible: match (visible_color, visible) {
+                (Some(rows), _) => Vec3::from(rows[row]),
+                (None, Some(rows)) => Vec3::splat(rows[row]),
+                (None, None) => Vec3::ONE,
+            },
         }
     };
     let shaded: Vec<Option<Vec3>> = cx
@@ -90,7 +101,7 @@ pub fn picture(cx: &mut CpuCx, radiance: impl Fn(&Surface) -> Vec3 + Sync) {
             let is_surface = *state != BACKGROUND && (triangle[row] as usize) < triangles.len();
             is_surface.then(|| {
                 let surface = surface_at(row);
-                settings.ambient * surface.albedo + surface.visible * radiance(&surface)
+                settings.ambient * surface.albedo + radiance(row, &surface)
             })
         })
         .collect();

@@ -2,6 +2,7 @@
 
 pub mod compare;
 pub mod pcf;
+pub mod pcss;
 
 use crate::ports;
 use crate::shared::light_frame::faces;
@@ -31,13 +32,14 @@ pub static STAGE: Stage = Stage {
         ports::NORMAL.read(),
         ports::SAMPLE_STATE.read(),
         input::LIGHT_SAMPLES.read(),
+        input::LIGHT.read(),
         ports::MASK,
         ports::VISIBLE,
     ],
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&compare::PASS, &pcf::PASS];
+pub const PASSES: &[&Pass] = &[&compare::PASS, &pcf::PASS, &pcss::PASS];
 
 fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
     let rows = cx.dim(ports::POSITION.name, 0);
@@ -62,7 +64,7 @@ fn one_light_sample(count: usize) -> Result<(), Problem> {
         .port(input::LIGHT_SAMPLES.name)
         .expected("1 light sample")
         .found(count.to_string())
-        .remedy("use a visibility pass that takes any number, such as visibility/exact"))
+        .remedy("use the graph multi_shadow_map, or pcss"))
 }
 
 /// Share and mask of every view-sample: the CPU function of every pass here but for its kernel.

@@ -2,6 +2,7 @@
 //!
 //! obvhs decides the tree; the boxes are made here from the corners' own bits, so no scaling of obvhs's input can lose one.
 
+use crate::shared::threaded::{END, LEAF_BITS, NODE_WORDS, SKIP};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
@@ -83,6 +84,43 @@ impl Bvh {
             (nodes[index].low, nodes[index].high) = (low, high);
         }
         Self { nodes, order }
+    }
+
+    /// Triangles in the order of the leaves.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// The nodes depth first, each with its way on: what passes that walk the tree on either backend share, as
+    /// [`crate::shared::threaded`] tells.
+    pub fn threaded(&self) -> Vec<[u32; NODE_WORDS]> {
+        let mut threaded: Vec<[u32; NODE_WORDS]> = Vec::with_capacity(self.nodes.len().max(1));
+        let words = |node: &Node, leaf: u32| {
+            let (low, high) = (node.low.map(f32::to_bits), node.high.map(f32::to_bits));
+            [low[0], low[1], low[2], END, high[0], high[1], high[2], leaf]
+        };
+        if self.nodes.is_empty() {
+            return vec![words(&Node { low: [f32::MAX; 3], high: [f32::MIN; 3], ..Node::default() }, 0)];
+        }
+        // A node, and the inner node at whose end it stands: there its subtree's end is known.
+        let mut open = vec![(0u32, Vec::new())];
+        while let Some((index, mut ending)) = open.pop() {
+            let node = &self.nodes[index as usize];
+            let place = threaded.len();
+            ending.push(place);
+            threaded.push(words(node, (node.first << LEAF_BITS | node.count) * u32::from(node.count > 0)));
+            if node.count == 0 {
+                // The right child ends where its parents do.
+                open.push((node.first + 1, ending));
+                open.push((node.first, Vec::new()));
+            } else if !open.is_empty() {
+                let next = threaded.len() as u32;
+                for place in ending {
+                    threaded[place][SKIP] = next;
+                }
+            }
+        }
+        threaded
     }
 
     /// Smallest and largest coordinates of all its triangles, a step wider; zeros when there are none.

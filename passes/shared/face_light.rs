@@ -152,8 +152,9 @@ impl FaceLight {
             }
             None => nearest_to_origin(&from),
         };
-        let back = |v: Vector| v.map(|x| -x);
-        let normals = [towards, normal, back(normal), self.flat_normal, back(self.flat_normal)];
+        // The caster's own plane and the light's, turned towards the caster, where they separate better.
+        let front = |normal: Vector| if dot(normal, from[0]) < 0.0 { normal.map(|x| -x) } else { normal };
+        let normals = [towards, front(normal), front(self.flat_normal)];
         let gap = |normal: Vector| {
             let long = length(normal);
             if long > 1e-290 { self.margin(corners, normal.map(|x| x / long))[2] } else { f64::MIN }

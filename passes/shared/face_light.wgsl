@@ -12,59 +12,70 @@ const BLUNT: f32 = 1e-2;
 // Planes that bound nothing fill the rest.
 const PLANES: u32 = 8u;
 
+// The body as each invocation keeps it: reading it from memory for every product is dear.
+struct Body {
+    flat: bool,
+    sides: u32,
+    thickness: f32,
+    // Largest sum of sizes.
+    reach: f32,
+    centre: vec3<f32>,
+    // Half axes of a solid, and rows of the map that takes it to the unit ball.
+    axes: mat3x3<f32>,
+    rows: mat3x3<f32>,
+    flat_normal: vec3<f32>,
+    // Corners of a flat one, four in each; the first fills the rest.
+    x: array<vec4<f32>, 2>,
+    y: array<vec4<f32>, 2>,
+    z: array<vec4<f32>, 2>,
+}
+var<private> body: Body;
+
 fn body_vector(word: u32) -> vec3<f32> {
     return vec3<f32>(light_body[word], light_body[word + 1u], light_body[word + 2u]);
 }
 
-fn body_is_flat() -> bool {
-    return light_body[0] > 0.5;
-}
-
-fn body_centre() -> vec3<f32> {
-    return body_vector(1u);
-}
-
-fn body_thickness() -> f32 {
-    return light_body[13];
-}
-
-fn body_reach() -> f32 {
-    return light_body[14];
-}
-
-fn body_sides() -> u32 {
-    return u32(light_body[15]);
+fn body_matrix(word: u32) -> mat3x3<f32> {
+    return mat3x3<f32>(body_vector(word), body_vector(word + 3u), body_vector(word + 6u));
 }
 
 fn body_corner(k: u32) -> vec3<f32> {
-    return body_vector(28u + 3u * k);
+    return body_vector(28u + 3u * select(0u, k, k < body.sides));
+}
+
+fn load_body() {
+    body.flat = light_body[0] > 0.5;
+    body.sides = u32(light_body[15]);
+    body.thickness = light_body[13];
+    body.reach = light_body[14];
+    body.centre = body_vector(1u);
+    body.axes = body_matrix(4u);
+    body.rows = body_matrix(16u);
+    body.flat_normal = body_vector(25u);
+    for (var four = 0u; four < 2u; four++) {
+        let a = body_corner(4u * four);
+        let b = body_corner(4u * four + 1u);
+        let c = body_corner(4u * four + 2u);
+        let d = body_corner(4u * four + 3u);
+        body.x[four] = vec4<f32>(a.x, b.x, c.x, d.x);
+        body.y[four] = vec4<f32>(a.y, b.y, c.y, d.y);
+        body.z[four] = vec4<f32>(a.z, b.z, c.z, d.z);
+    }
 }
 
 fn sum_of_sizes(a: vec3<f32>) -> f32 {
     return abs(a.x) + abs(a.y) + abs(a.z);
 }
 
-// To where the solid is the unit ball, and a normal back from there.
-fn to_ball(offset: vec3<f32>) -> vec3<f32> {
-    return vec3<f32>(dot(body_vector(16u), offset), dot(body_vector(19u), offset), dot(body_vector(22u), offset));
-}
-
-fn from_ball(normal: vec3<f32>) -> vec3<f32> {
-    return normal.x * body_vector(16u) + normal.y * body_vector(19u) + normal.z * body_vector(22u);
-}
-
 // The largest product with `normal` over the body.
 fn body_most(normal: vec3<f32>) -> f32 {
-    if !body_is_flat() {
-        let along = vec3<f32>(
-            dot(normal, body_vector(4u)), dot(normal, body_vector(7u)), dot(normal, body_vector(10u)));
-        return dot(normal, body_centre()) + length(along);
+    if !body.flat {
+        return dot(normal, body.centre) + length(normal * body.axes);
     }
-    var most = -3e38;
-    for (var k = 0u; k < body_sides(); k++) {
-        most = max(most, dot(normal, body_corner(k)));
-    }
-    return most + body_thickness() * length(normal) * 1.00001;
+    let low = normal.x * body.x[0] + normal.y * body.y[0] + normal.z * body.z[0];
+    let high = normal.x * body.x[1] + normal.y * body.y[1] + normal.z * body.z[1];
+    let most = max(low, high);
+    return max(max(most.x, most.y), max(most.z, most.w)) + body.thickness * length(normal) * 1.00001;
 }
 
 // Two unit vectors across a unit vector and each other.
@@ -85,49 +96,50 @@ fn across(axis: vec3<f32>) -> Across {
     return Across(x, cross(axis, x));
 }
 
-// Where view-samples behind `corner` are, seen from the body: directions, by how much each may be off, none where it touches.
-struct Directions {
-    ray: array<vec3<f32>, 8>,
+// Where view-samples behind a corner are, seen from the body: the directions of a cone.
+struct Cone {
+    corner: vec3<f32>,
+    axis: vec3<f32>,
+    x: vec3<f32>,
+    y: vec3<f32>,
+    // How far each direction may be off.
     stray: f32,
+    // Whether the corner is clear of the body.
     any: bool,
 }
 
-fn directions_through(corner: vec3<f32>) -> Directions {
-    var result: Directions;
-    result.any = true;
-    let sides = body_sides();
-    if body_is_flat() {
-        for (var k = 0u; k < sides; k++) {
-            result.ray[k] = corner - body_corner(k);
-        }
-        result.stray = ERROR * (sum_of_sizes(corner) + body_reach()) + body_thickness();
-        return result;
+fn cone_through(corner: vec3<f32>) -> Cone {
+    var cone: Cone;
+    cone.corner = corner;
+    cone.any = true;
+    if body.flat {
+        cone.stray = ERROR * (sum_of_sizes(corner) + body.reach) + body.thickness;
+        return cone;
     }
-    let offset = corner - body_centre();
-    let at = to_ball(offset);
+    let at = (corner - body.centre) * body.rows;
     // How far rounding may have moved `at`.
-    let sizes = vec3<f32>(
-        sum_of_sizes(body_vector(16u)), sum_of_sizes(body_vector(19u)), sum_of_sizes(body_vector(22u)));
-    let strayed = ERROR * max(sizes.x, max(sizes.y, sizes.z)) * (sum_of_sizes(corner) + body_reach());
+    let sizes = max(sum_of_sizes(body.rows[0]), max(sum_of_sizes(body.rows[1]), sum_of_sizes(body.rows[2])));
+    let strayed = ERROR * sizes * (sum_of_sizes(corner) + body.reach);
     let away = length(at) - 3.0 * strayed;
-    if away < 1.01 {
-        result.any = false;
-        return result;
-    }
+    cone.any = away >= 1.01;
     let axis = normalize(at);
-    let cone = inverseSqrt(away * away - 1.0);
-    let tangent = cone + 3.0 * (1.0 + cone * cone) * (strayed / away + ERROR);
+    let slope = inverseSqrt(max(away * away, 1.02) - 1.0);
+    let tangent = slope + 3.0 * (1.0 + slope * slope) * (strayed / away + ERROR);
     let turn = across(axis);
-    var far = 0.0;
-    for (var k = 0u; k < sides; k++) {
-        let ring = tangent * vec2<f32>(light_body[52u + 2u * k], light_body[53u + 2u * k]);
-        let ray = axis + ring.x * turn.x + ring.y * turn.y;
-        result.ray[k] = ray.x * body_vector(4u) + ray.y * body_vector(7u) + ray.z * body_vector(10u);
-        far = max(far, abs(ray.x) * sum_of_sizes(body_vector(4u)) + abs(ray.y) * sum_of_sizes(body_vector(7u))
-            + abs(ray.z) * sum_of_sizes(body_vector(10u)));
+    cone.axis = body.axes * axis;
+    cone.x = body.axes * (tangent * turn.x);
+    cone.y = body.axes * (tangent * turn.y);
+    let far = sum_of_sizes(body.axes[0]) + sum_of_sizes(body.axes[1]) + sum_of_sizes(body.axes[2]);
+    cone.stray = 4.0 * ERROR * far * (1.0 + 2.0 * tangent);
+    return cone;
+}
+
+// Direction `k`, to the polygon's corner with that number.
+fn cone_ray(cone: Cone, k: u32) -> vec3<f32> {
+    if body.flat {
+        return cone.corner - body_corner(k);
     }
-    result.stray = 2.0 * ERROR * far;
-    return result;
+    return cone.axis + light_body[52u + 2u * k] * cone.x + light_body[53u + 2u * k] * cone.y;
 }
 
 // Corners from the origin, and planes that separate the caster from the body.
@@ -177,113 +189,127 @@ fn nearest_on(p: vec3<f32>, q: vec3<f32>) -> vec3<f32> {
 
 // Distance of the caster and the body, at most; not above zero where they may touch.
 fn gap_of(caster: ptr<function, Caster>, normal: vec3<f32>) -> f32 {
-    let centre = body_centre();
-    let a = (*caster).a - centre;
-    let b = (*caster).b - centre;
-    let c = (*caster).c - centre;
-    var towards: vec3<f32>;
-    if body_is_flat() {
-        towards = nearest_to_origin(a, b, c);
-    } else {
-        // The nearest point of the scaled caster, and its normal taken back.
-        towards = from_ball(nearest_to_origin(to_ball(a), to_ball(b), to_ball(c)));
+    var a = (*caster).a - body.centre;
+    var b = (*caster).b - body.centre;
+    var c = (*caster).c - body.centre;
+    // The caster's own plane, and the light's; and the way to the nearest point, of the scaled caster where the body is solid.
+    var tried = array<vec3<f32>, 3>(
+        select(normal, -normal, dot(normal, a) < 0.0),
+        select(body.flat_normal, -body.flat_normal, dot(body.flat_normal, a) < 0.0),
+        vec3<f32>(0.0),
+    );
+    if !body.flat {
+        a = a * body.rows;
+        b = b * body.rows;
+        c = c * body.rows;
     }
-    let flat = body_vector(25u);
-    var tried = array<vec3<f32>, 5>(towards, normal, -normal, flat, -flat);
+    let nearest = nearest_to_origin(a, b, c);
+    tried[2] = nearest;
+    if !body.flat {
+        tried[2] = body.rows * nearest;
+    }
     var gap = -1.0;
-    for (var k = 0u; k < 5u; k++) {
+    // One call in a loop, because compilers copy what is called into every place.
+    for (var k = 0u; k < 3u; k++) {
         let size = sum_of_sizes(tried[k]);
         if size > 1e-30 && size < 1e30 {
-            let ends = margin(caster, tried[k] / size);
-            gap = max(gap, (ends.x - ends.y) / length(tried[k] / size));
+            let n = tried[k] / size;
+            let ends = margin(caster, n);
+            gap = max(gap, (ends.x - ends.y) / length(n));
         }
     }
     return gap;
-}
-
-// Sets plane `k` to that of `normal`, where it bounds something.
-fn set_plane(caster: ptr<function, Caster>, k: u32, normal: vec3<f32>, gap: f32) {
-    let size = sum_of_sizes(normal);
-    if !(size > 1e-30 && size < 1e30) {
-        return;
-    }
-    let n = normal / size;
-    let ends = margin(caster, n);
-    let blunt = max(ends.y - ends.x, 0.0) / gap;
-    let depth = select(ends.x, ends.y - body_reach() * blunt, ends.x < ends.y);
-    if blunt < BLUNT && depth >= 0.0 {
-        (*caster).planes[k] = vec4<f32>(n, depth);
-        (*caster).blunt[k] = blunt;
-    }
 }
 
 fn turn_of(p: vec2<f32>, q: vec2<f32>) -> f32 {
     return p.x * q.y - p.y * q.x;
 }
 
-// Sets planes `k` and `k` + 1 to those through an edge that touch the body.
-fn set_edge_planes(caster: ptr<function, Caster>, k: u32, a: vec3<f32>, b: vec3<f32>, gap: f32) {
-    if !body_is_flat() {
-        let offset = to_ball(a - body_centre());
-        let edge = to_ball(b - a);
+// Normals of the two planes through an edge that touch the body; zero where there are none.
+struct Pair {
+    one: vec3<f32>,
+    other: vec3<f32>,
+}
+
+fn edge_normals(a: vec3<f32>, b: vec3<f32>) -> Pair {
+    let none = Pair(vec3<f32>(0.0), vec3<f32>(0.0));
+    if !body.flat {
+        let offset = (a - body.centre) * body.rows;
+        let edge = (b - a) * body.rows;
         let square = dot(edge, edge);
-        if !(square > 1e-30) {
-            return;
-        }
         let foot = offset - edge * (dot(offset, edge) / square);
         let away = length(foot);
-        if away > 1.0 {
-            let unit = foot / away;
-            let aside = normalize(cross(edge, unit));
-            let sin = sqrt(max(1.0 - 1.0 / (away * away), 0.0));
-            set_plane(caster, k, from_ball(unit / away + sin * aside), gap);
-            set_plane(caster, k + 1u, from_ball(unit / away - sin * aside), gap);
+        if !(square > 1e-30 && away > 1.0) {
+            return none;
         }
-        return;
+        let unit = foot / away;
+        let aside = normalize(cross(edge, unit)) * sqrt(max(1.0 - 1.0 / (away * away), 0.0));
+        return Pair(body.rows * (unit / away + aside), body.rows * (unit / away - aside));
     }
     let edge = b - a;
     let long = length(edge);
     if !(long > 1e-30) {
-        return;
+        return none;
     }
     // Around the edge the corners are directions of the plane; the outermost ones touch.
     let plane = across(edge / long);
     let first = body_corner(0u) - a;
     var left = vec2<f32>(dot(plane.x, first), dot(plane.y, first));
     var right = left;
-    for (var corner = 1u; corner < body_sides(); corner++) {
-        let other = body_corner(corner) - a;
-        let here = vec2<f32>(dot(plane.x, other), dot(plane.y, other));
+    for (var corner = 1u; corner < body.sides; corner++) {
+        let offset = body_corner(corner) - a;
+        let here = vec2<f32>(dot(plane.x, offset), dot(plane.y, offset));
         left = select(left, here, turn_of(left, here) > 0.0);
         right = select(right, here, turn_of(right, here) < 0.0);
     }
-    set_plane(caster, k, left.x * plane.y - left.y * plane.x, gap);
-    set_plane(caster, k + 1u, right.y * plane.x - right.x * plane.y, gap);
+    return Pair(left.x * plane.y - left.y * plane.x, right.y * plane.x - right.x * plane.y);
 }
 
-// The caster with corners at `a`, `b`, `c` from the origin; `cut`: with its own plane, `edges`: with those through its edges.
+// Sets the planes: the caster's own where `cut` says so, those through its edges where `edges` does.
+fn set_planes(caster: ptr<function, Caster>, cut: bool, edges: bool) {
+    var corners = array<vec3<f32>, 4>((*caster).a, (*caster).b, (*caster).c, (*caster).a);
+    let normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    let gap = gap_of(caster, normal);
+    if gap <= 0.0 {
+        return;
+    }
+    var normals: array<vec3<f32>, PLANES>;
+    let own = select(normal, -normal, dot(normal, corners[0]) < 0.0);
+    normals[0] = select(vec3<f32>(0.0), own, cut);
+    for (var k = 0u; k < select(0u, 3u, edges); k++) {
+        let two = edge_normals(corners[k], corners[k + 1u]);
+        normals[2u * k + 1u] = two.one;
+        normals[2u * k + 2u] = two.other;
+    }
+    for (var k = 0u; k < PLANES; k++) {
+        let size = sum_of_sizes(normals[k]);
+        if !(size > 1e-30 && size < 1e30) {
+            continue;
+        }
+        let n = normals[k] / size;
+        let ends = margin(caster, n);
+        let blunt = max(ends.y - ends.x, 0.0) / gap;
+        let depth = select(ends.x, ends.y - body.reach * blunt, ends.x < ends.y);
+        if blunt < BLUNT && depth >= 0.0 {
+            (*caster).planes[k] = vec4<f32>(n, depth);
+            (*caster).blunt[k] = blunt;
+        }
+    }
+}
+
+// The caster with corners at `a`, `b`, `c` from the origin.
 fn caster_at(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, cut: bool, edges: bool) -> Caster {
+    load_body();
     var caster: Caster;
     caster.a = a;
     caster.b = b;
     caster.c = c;
     caster.casts = !(all(a == b) || all(b == c) || all(c == a));
-    caster.far = max(body_reach(), max(sum_of_sizes(a), max(sum_of_sizes(b), sum_of_sizes(c))));
+    caster.far = max(body.reach, max(sum_of_sizes(a), max(sum_of_sizes(b), sum_of_sizes(c))));
     for (var k = 0u; k < PLANES; k++) {
         caster.planes[k] = vec4<f32>(0.0);
         caster.blunt[k] = 0.0;
     }
-    let normal = cross(b - a, c - a);
-    let gap = gap_of(&caster, normal);
-    if gap > 0.0 {
-        if cut {
-            set_plane(&caster, 0u, select(normal, -normal, dot(normal, a) < 0.0), gap);
-        }
-        if edges {
-            set_edge_planes(&caster, 1u, a, b, gap);
-            set_edge_planes(&caster, 3u, b, c, gap);
-            set_edge_planes(&caster, 5u, c, a, gap);
-        }
-    }
+    set_planes(&caster, cut, edges);
     return caster;
 }

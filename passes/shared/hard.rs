@@ -69,7 +69,7 @@ impl<'a> Scene<'a> {
                 .port("light_samples")
                 .expected("1 light sample")
                 .found(format!("{} light samples", lights.len()))
-                .remedy("use a graph for soft shadows, or a light of radius 0"));
+                .remedy("use a graph for soft shadows, or one light sample"));
         };
         if let Some(face) = faces.iter().find(|face| face.origin.to_array() != light) {
             return Err(Problem::new(Kind::BadValue, "the light frame does not look from the light sample")

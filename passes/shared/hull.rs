@@ -11,6 +11,8 @@
 pub const MOST_SIDES: usize = 8;
 /// Points of three polygons, at most.
 pub const MOST_POINTS: usize = 3 * MOST_SIDES;
+/// Places of a hull: rounding may leave a point on both of its chains.
+pub const HULL_ROOM: usize = 2 * MOST_POINTS;
 
 /// A point of the plane.
 pub type Point = [f64; 2];
@@ -63,7 +65,7 @@ fn merge(a: &[Point], b: &[Point], into: &mut [Point]) {
 
 /// Corners of the hull of `points`, which are three convex polygons of equally many points one after another, either way
 /// round; counter-clockwise from the left, in the first places of `hull`. Their number: the first is not repeated.
-pub fn hull_of_three(points: &[Point], hull: &mut [Point; MOST_POINTS + 2]) -> usize {
+pub fn hull_of_three(points: &[Point], hull: &mut [Point; HULL_ROOM]) -> usize {
     let sides = points.len() / 3;
     let mut runs = [[0.0; 2]; MOST_POINTS];
     for k in 0..3 {
@@ -105,7 +107,7 @@ mod tests {
     }
 
     fn hull(points: &[Point]) -> Vec<Point> {
-        let mut corners = [[0.0; 2]; MOST_POINTS + 2];
+        let mut corners = [[0.0; 2]; HULL_ROOM];
         let count = hull_of_three(points, &mut corners);
         corners[..count].to_vec()
     }

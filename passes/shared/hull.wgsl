@@ -1,7 +1,8 @@
 // The convex hull of three convex polygons in linear time, as hull.rs tells it: chains of each polygon are sorted by x, so merging
 // sorts all points, and a scan there and back drops every turn to the right.
 const MOST_POINTS: u32 = 24u;
-const HULL_ROOM: u32 = 26u;
+// Rounding may leave a point on both chains.
+const HULL_ROOM: u32 = 48u;
 
 struct Points {
     at: array<vec2<f32>, HULL_ROOM>,

@@ -21,7 +21,7 @@
 
 use super::face_light::{ERROR, FaceLight, Line};
 use super::footprint::{Grid, SLACK};
-use super::hull::{MOST_POINTS, hull_of_three};
+use super::hull::{HULL_ROOM, MOST_POINTS, hull_of_three};
 use super::light_bound::{Vector, minus};
 use super::pair_walk::Region;
 use super::pyramid::{cross, dot, size};
@@ -34,10 +34,12 @@ const MOST_PLANES: usize = 7;
 pub struct Influence {
     rows: [usize; 2],
     columns: [usize; 2],
-    /// Planes first, then sides of the hull.
-    lines: [Line; MOST_PLANES + MOST_POINTS + 2],
+    /// Separating planes.
+    planes: [Line; MOST_PLANES],
     plane_count: usize,
-    line_count: usize,
+    /// Sides of the hull.
+    sides: [Line; MOST_POINTS],
+    side_count: usize,
     /// Nearest depth of the caster; no depth where the light reaches deeper.
     near: f64,
     /// One over the largest depth of a view-sample.
@@ -62,50 +64,42 @@ impl FaceLight {
         let mut region = Influence {
             rows: [0, grid.side - 1],
             columns: [0, grid.side - 1],
-            lines: [Line::default(); MOST_PLANES + MOST_POINTS + 2],
+            planes: [Line::default(); MOST_PLANES],
             plane_count: 0,
-            line_count: 0,
+            sides: [Line::default(); MOST_POINTS],
+            side_count: 0,
             near,
             least_q: 1.0 / grid.far,
             is_whole: false,
         };
-        region.planes(self, corners);
-        let has_hull = region.hull(self, corners, grid, grid.far.max(deepest))?;
-        region.is_whole = !has_hull && region.line_count == 0;
+        let has_hull = region.set_hull(self, corners, grid, grid.far.max(deepest))?;
+        region.set_planes(self, corners);
+        region.is_whole = !has_hull && region.plane_count == 0;
         Some(region)
     }
 }
 
 impl Influence {
-    fn push(&mut self, line: Line) {
-        self.lines[self.line_count] = line;
-        self.line_count += 1;
-    }
-
-    /// Adds the planes.
-    fn planes(&mut self, light: &FaceLight, corners: &[Vector; 3]) {
+    /// Sets the planes.
+    fn set_planes(&mut self, light: &FaceLight, corners: &[Vector; 3]) {
         let [a, b, c] = *corners;
         let normal = cross(minus(b, a), minus(c, a));
         let gap = light.gap(corners, normal);
         if gap <= 0.0 {
             return;
         }
-        if light.bounds.cut {
-            let front = if dot(normal, a) < 0.0 { normal.map(|x| -x) } else { normal };
-            light.plane(corners, front, gap).into_iter().for_each(|line| self.push(line));
+        let front = if dot(normal, a) < 0.0 { normal.map(|x| -x) } else { normal };
+        let own = light.bounds.cut.then_some(front);
+        let edges = if light.bounds.is_quad { &[][..] } else { &[(a, b), (b, c), (c, a)][..] };
+        let touching = edges.iter().flat_map(|(a, b)| light.edge_normals(*a, *b)).flatten();
+        for line in own.into_iter().chain(touching).filter_map(|normal| light.plane(corners, normal, gap)) {
+            self.planes[self.plane_count] = line;
+            self.plane_count += 1;
         }
-        if !light.bounds.is_quad {
-            for (a, b) in [(a, b), (b, c), (c, a)] {
-                for normal in light.edge_normals(a, b).into_iter().flatten() {
-                    light.plane(corners, normal, gap).into_iter().for_each(|line| self.push(line));
-                }
-            }
-        }
-        self.plane_count = self.line_count;
     }
 
-    /// Adds the hull at `depth`: whether there is one; none when it is beside all view-samples.
-    fn hull(&mut self, light: &FaceLight, corners: &[Vector; 3], grid: &Grid, depth: f64) -> Option<bool> {
+    /// Sets the hull at `depth`: whether there is one; none when it is beside all view-samples.
+    fn set_hull(&mut self, light: &FaceLight, corners: &[Vector; 3], grid: &Grid, depth: f64) -> Option<bool> {
         let Some((points, pad)) = light.projections(corners, depth) else {
             return Some(false);
         };
@@ -124,9 +118,10 @@ impl Influence {
         if small || light.bounds.is_quad {
             return Some(true);
         }
-        let mut hull = [[0.0; 2]; MOST_POINTS + 2];
+        let mut hull = [[0.0; 2]; HULL_ROOM];
         let corner_count = hull_of_three(&points[..count], &mut hull);
-        for k in 0..corner_count {
+        // More corners than points are doubles by rounding; without a side the region is only larger.
+        for k in 0..corner_count.min(MOST_POINTS) {
             let (a, b) = (hull[k], hull[(k + 1) % corner_count]);
             let [x, y] = [a[1] - b[1], b[0] - a[0]];
             // Counter-clockwise: the inside is on the left. Measured against all points, so that no direction is wrong.
@@ -134,7 +129,9 @@ impl Influence {
             let least = along.fold(f64::MAX, f64::min) - (x.abs() + y.abs()) * pad;
             let long = x.abs() + y.abs() + least.abs();
             if x.abs() + y.abs() > 1e-12 * long {
-                self.push(Line { u: x / long, v: y / long, one: -least / long, depth: 0.0, slack: SLACK });
+                let line = Line { u: x / long, v: y / long, one: -least / long, depth: 0.0, slack: SLACK };
+                self.sides[self.side_count] = line;
+                self.side_count += 1;
             }
         }
         Some(true)
@@ -150,7 +147,7 @@ impl Region for Influence {
         let v = grid.extent(1, row);
         let widest = grid.reach[0][0].abs().max(grid.reach[0][1].abs());
         let mut ends = [f64::MIN, f64::MAX];
-        for line in &self.lines[..self.line_count] {
+        for line in self.planes[..self.plane_count].iter().chain(&self.sides[..self.side_count]) {
             let at = |v: f64| line.v * v + line.slack * v.abs();
             let rest = line.one - line.depth * self.least_q + line.slack + at(v[0]).max(at(v[1]));
             // A half-line, whose end is left or right of zero as `rest` says.
@@ -181,7 +178,7 @@ impl Region for Influence {
             return false;
         }
         let [u, v] = [grid.extent(0, at[0]), grid.extent(1, at[1])];
-        self.lines[..self.plane_count].iter().any(|line| {
+        self.planes[..self.plane_count].iter().any(|line| {
             let along = |x: f64, at: f64| x * at + line.slack * at.abs();
             let across = along(line.u, u[0]).max(along(line.u, u[1])) + along(line.v, v[0]).max(along(line.v, v[1]));
             across + line.one + line.slack < line.depth * q

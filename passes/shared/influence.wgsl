@@ -74,9 +74,11 @@ fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: 
 
     // Beyond one of the face's sides, and further beyond than the light.
     let wide = region.reach * axis_z;
-    if beyond_side(caster, axis_x + wide) || beyond_side(caster, wide - axis_x) || beyond_side(caster, axis_y + wide)
-        || beyond_side(caster, wide - axis_y) || beyond_side(caster, axis_z) {
-        return region;
+    var sides_inwards = array<vec3<f32>, 5>(wide + axis_x, wide - axis_x, wide + axis_y, wide - axis_y, axis_z);
+    for (var k = 0u; k < 5u; k++) {
+        if beyond_side(caster, sides_inwards[k]) {
+            return region;
+        }
     }
     let depths = vec3<f32>(dot(axis_z, (*caster).a), dot(axis_z, (*caster).b), dot(axis_z, (*caster).c));
     let room = ERROR * (*caster).far;
@@ -112,37 +114,33 @@ fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: 
 
     // The hull of the projections onto the plane at the largest depth.
     let depth = max(face_far, max(depths.x, max(depths.y, depths.z)));
-    let sides = body_sides();
+    let sides = body.sides;
     var points: Points;
     var pad = 0.0;
+    var low = vec2<f32>(3e38);
+    var high = vec2<f32>(-3e38);
     for (var corner = 0u; corner < 3u; corner++) {
-        let offset = select(select((*caster).c, (*caster).b, corner == 1u), (*caster).a, corner == 0u);
-        let rays = directions_through(offset);
-        if !rays.any {
-            return region;
-        }
-        let at = vec3<f32>(dot(axis_x, offset), dot(axis_y, offset), dot(axis_z, offset));
+        let place = select(select((*caster).c, (*caster).b, corner == 1u), (*caster).a, corner == 0u);
+        let cone = cone_through(place);
+        let at = vec3<f32>(dot(axis_x, place), dot(axis_y, place), dot(axis_z, place));
         let left = max(depth - at.z, 0.0) / depth;
+        let share = left + ERROR * sum_of_sizes(place) / depth;
         for (var k = 0u; k < sides; k++) {
-            let ray = vec3<f32>(dot(axis_x, rays.ray[k]), dot(axis_y, rays.ray[k]), dot(axis_z, rays.ray[k]));
+            let world = cone_ray(cone, k);
+            let ray = vec3<f32>(dot(axis_x, world), dot(axis_y, world), dot(axis_z, world));
             let size = sum_of_sizes(ray);
-            let stray = rays.stray + ERROR * sum_of_sizes(rays.ray[k]);
+            let stray = cone.stray + ERROR * sum_of_sizes(world);
             let z = ray.z - stray;
-            if z <= BESIDE * size {
+            if !cone.any || z <= BESIDE * size {
                 return region;
             }
             let point = at.xy / depth + ray.xy * (left / ray.z);
             points.at[corner * sides + k] = point;
-            let share = left + ERROR * sum_of_sizes(offset) / depth;
-            pad = max(pad, 2.0 * ERROR * (1.0 + abs(point.x) + abs(point.y) + sum_of_sizes(offset) / depth + share * size / z)
-                + share * stray / z * (1.0 + size / z));
+            low = min(low, point);
+            high = max(high, point);
+            let rounding = 1.0 + abs(point.x) + abs(point.y) + sum_of_sizes(place) / depth + share * size / z;
+            pad = max(pad, 2.0 * ERROR * rounding + share * stray / z * (1.0 + size / z));
         }
-    }
-    var low = points.at[0];
-    var high = points.at[0];
-    for (var k = 1u; k < 3u * sides; k++) {
-        low = min(low, points.at[k]);
-        high = max(high, points.at[k]);
     }
     let largest = max(abs(low), abs(high)) + pad;
     let slack = SLACK * (1.0 + dot(largest, largest)) + pad;
@@ -159,7 +157,9 @@ fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: 
         return region;
     }
     var hull = hull_of_three(&points, sides);
-    for (var k = 0u; k < hull.count; k++) {
+    // More corners than points are doubles by rounding; without a side the region is only larger.
+    let lines = min(hull.count, MOST_POINTS);
+    for (var k = 0u; k < lines; k++) {
         let a = hull.at[k];
         let b = hull.at[select(k + 1u, 0u, k + 1u == hull.count)];
         let n = vec2<f32>(a.y - b.y, b.x - a.x);
@@ -174,81 +174,6 @@ fn influence_region(caster: ptr<function, Caster>, face: u32, faces: u32, side: 
             put_line(&region, 4u * PLANE_GROUPS + k, vec3<f32>(n, -least) / size);
         }
     }
-    region.groups = PLANE_GROUPS + (hull.count + 3u) / 4u;
+    region.groups = PLANE_GROUPS + (lines + 3u) / 4u;
     return region;
-}
-
-// Smallest and largest of a border texel's and an inner texel's coordinates along an axis.
-fn region_extent(region: ptr<function, Region>, axis: u32, index: u32, side: u32) -> vec2<f32> {
-    let low = (*region).window[axis];
-    let texel = (*region).window[axis + 2u];
-    let pad = (*region).pad[axis];
-    let start = low + (f32(index) - pad) * texel;
-    let end = low + (f32(index) + 1.0 + pad) * texel;
-    return vec2<f32>(
-        select(start, min(start, -(*region).reach), index == 0u), select(end, max(end, (*region).reach), index + 1u == side));
-}
-
-// First column touched in a row of the bounding box, and one past the last; equal when none is.
-fn influence_columns(region: ptr<function, Region>, row: u32, side: u32) -> vec2<u32> {
-    let v = region_extent(region, 1u, row, side);
-    var left = -3e38;
-    var right = 3e38;
-    for (var group = 0u; group < (*region).groups; group++) {
-        var slack = vec4<f32>(SLACK);
-        var rest = (*region).one[group];
-        if group < PLANE_GROUPS {
-            slack = (*region).slack[group];
-            rest -= (*region).depth[group] * (*region).least_q;
-        }
-        let lift = (*region).v[group];
-        rest += slack + max(lift * v.x + slack * abs(v.x), lift * v.y + slack * abs(v.y));
-        let u = (*region).u[group];
-        let turned = select(-slack, slack, rest < vec4<f32>(0.0));
-        let is_left = u > 4.0 * slack;
-        let is_right = u < -4.0 * slack;
-        let lefts = select(vec4<f32>(-3e38), -rest / (u + turned), is_left);
-        let rights = select(vec4<f32>(3e38), -rest / (u - turned), is_right);
-        left = max(left, max(max(lefts.x, lefts.y), max(lefts.z, lefts.w)));
-        right = min(right, min(min(rights.x, rights.y), min(rights.z, rights.w)));
-        if any(!is_left & !is_right & (rest + 5.0 * slack * (*region).reach < vec4<f32>(0.0))) {
-            return vec2<u32>(0u);
-        }
-    }
-    let window = (*region).window;
-    let pad = (*region).pad.x;
-    if left > right || right < -(*region).reach || left > (*region).reach {
-        return vec2<u32>(0u);
-    }
-    let end = f32(side) - 1.0;
-    let first = max(u32(clamp(floor((left - window.x) / window.z - pad), 0.0, end)), (*region).first.x);
-    let last = min(u32(clamp(floor((right - window.x) / window.z + pad), 0.0, end)), (*region).last.x);
-    if first > last {
-        return vec2<u32>(0u);
-    }
-    return vec2<u32>(first, last + 1u);
-}
-
-// Whether no view-sample of the cell at column and row `at`, whose largest depth is `far`, can be blocked.
-fn influence_is_behind(region: ptr<function, Region>, far: f32, at: vec2<u32>, side: u32) -> bool {
-    let border = any(at == vec2<u32>(0u)) || any(at + 1u == vec2<u32>(side));
-    if (*region).near > far * select((*region).rooms.x, (*region).rooms.y, border) {
-        return true;
-    }
-    let q = 1.0 / far;
-    // The span has seen to it where the cell is as deep as the face.
-    if q < 1.02 * (*region).least_q {
-        return false;
-    }
-    let u = region_extent(region, 0u, at.x, side);
-    let v = region_extent(region, 1u, at.y, side);
-    var outside = false;
-    for (var group = 0u; group < PLANE_GROUPS; group++) {
-        let slack = (*region).slack[group];
-        let along_u = max((*region).u[group] * u.x + slack * abs(u.x), (*region).u[group] * u.y + slack * abs(u.y));
-        let along_v = max((*region).v[group] * v.x + slack * abs(v.x), (*region).v[group] * v.y + slack * abs(v.y));
-        let value = along_u + along_v + (*region).one[group] + slack;
-        outside = outside || any(value < (*region).depth[group] * q);
-    }
-    return outside;
 }

@@ -226,3 +226,7 @@ pub fn inverse_rows(axes: &[Vector; 3]) -> Option<[Vector; 3]> {
     let rows = [cross(b, c), cross(c, a), cross(a, b)].map(|row| row.map(|x| x / determinant));
     rows.iter().flatten().all(|x| x.is_finite()).then_some(rows)
 }
+
+#[cfg(test)]
+#[path = "light_bound_tests.rs"]
+mod tests;

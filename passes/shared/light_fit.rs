@@ -2,7 +2,7 @@
 //! Parametrization). [`WGSL`] tells the same story in the same order.
 
 use crate::ports;
-use crate::shared::light_frame::{Face, uv_pad};
+use crate::shared::light_frame::{Face, project, uv_pad};
 use glam::{BVec4A, Vec3, Vec4};
 use rayon::prelude::*;
 use shadowgraph_core::input;
@@ -154,6 +154,30 @@ pub fn fit_depth(mut face: Face, bounds: &Bounds) -> Face {
     face.near = bounds.low[2] * (1.0 - PAD);
     face.far = (bounds.high[2] * (1.0 + PAD)).min(f32::MAX);
     face
+}
+
+/// `faces` as they look from `origin`, with windows, near and far fitted to the view-samples, and the number of kept view-samples
+/// that none of them can place.
+pub fn refit(faces: &[Face], origin: Vec3, positions: &[[f32; 3]], states: &[u32]) -> (Vec<Face>, u64) {
+    let moved: Vec<Face> = faces.iter().map(|face| Face { origin, ..*face }).collect();
+    if let [face] = moved[..] {
+        let (bounds, behind) = window_bounds(&face, positions, states);
+        return (vec![fit(face, &bounds)], behind);
+    }
+    let parts = positions.par_chunks(CHUNK).zip(states.par_chunks(CHUNK)).map(|(positions, states)| {
+        let (mut bounds, mut behind) = (vec![EMPTY; moved.len()], 0);
+        for (position, _) in positions.iter().zip(states).filter(|(_, state)| **state == KEPT) {
+            match project(&moved, Vec3::from(*position)) {
+                Some(point) => bounds[point.face].add([point.u, point.v, point.depth]),
+                None => behind += 1,
+            }
+        }
+        (bounds, behind)
+    });
+    let nothing = || (vec![EMPTY; moved.len()], 0);
+    let (bounds, behind) =
+        parts.reduce(nothing, |a, b| (a.0.iter().zip(b.0).map(|(one, other)| one.union(other)).collect(), a.1 + b.1));
+    (moved.iter().zip(&bounds).map(|(face, bounds)| fit(*face, bounds)).collect(), behind)
 }
 
 /// View-samples of a rayon task.

@@ -178,11 +178,12 @@ fn reduce_directions(first: u32) {
 
 // Bounds of (u, v, depth) of the same view-samples on a single face; returns how many cannot be placed.
 fn reduce_window(first: u32) -> u32 {
+    let face = light_face(0u);
     var bounds = Bounds(vec3<f32>(0.0), vec3<f32>(0.0), true);
     var behind = 0u;
     for (var sample = first; sample < size.sample_count; sample += size.invocations) {
         if sample_state[sample] == KEPT {
-            let point = light_project(position_of(sample), 1u);
+            let point = light_see(face, position_of(sample));
             if point.depth > 0.0 {
                 bounds = bounds_with(bounds, vec3<f32>(point.u, point.v, point.depth));
             } else {

@@ -52,22 +52,55 @@ fn light_dot(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// The face whose axis the point lies furthest along, and its coordinates there.
-fn light_project(position: vec3<f32>, face_count: u32) -> LightPoint {
-    var best = LightPoint(0u, 0.0, 0.0, 0.0);
-    for (var face = 0u; face < face_count; face++) {
+// A face's place and axes, for loops that would fetch them again and again.
+struct LightFace {
+    index: u32,
+    origin: vec3<f32>,
+    axis_x: vec3<f32>,
+    axis_y: vec3<f32>,
+    axis_z: vec3<f32>,
+}
+
+fn light_face(index: u32) -> LightFace {
+    return LightFace(
+        index, light_origin(index), light_axis_x(index), light_axis_y(index), light_axis_z(index));
+}
+
+// A point as one face sees it.
+fn light_see(face: LightFace, position: vec3<f32>) -> LightPoint {
+    var point = LightPoint(face.index, 0.0, 0.0, 0.0);
+    let offset = position - face.origin;
+    let depth = light_dot(face.axis_z, offset);
+    if depth > 0.0 {
+        point.u = light_dot(face.axis_x, offset) / depth;
+        point.v = light_dot(face.axis_y, offset) / depth;
+        point.depth = depth;
+    }
+    return point;
+}
+
+// The one of `count` faces from `first` on whose axis the point lies furthest along; of equals the lowest.
+fn light_face_of(position: vec3<f32>, first: u32, count: u32) -> u32 {
+    var best = first;
+    var best_depth = 0.0;
+    for (var face = first; face < first + count; face++) {
         let depth = light_dot(light_axis_z(face), position - light_origin(face));
-        if depth > best.depth {
-            best.face = face;
-            best.depth = depth;
+        if depth > best_depth {
+            best = face;
+            best_depth = depth;
         }
     }
-    if best.depth > 0.0 {
-        let offset = position - light_origin(best.face);
-        best.u = light_dot(light_axis_x(best.face), offset) / best.depth;
-        best.v = light_dot(light_axis_y(best.face), offset) / best.depth;
-    }
     return best;
+}
+
+// The point as that face sees it.
+fn light_project_from(position: vec3<f32>, first: u32, count: u32) -> LightPoint {
+    return light_see(light_face(light_face_of(position, first, count)), position);
+}
+
+// The same among all faces.
+fn light_project(position: vec3<f32>, face_count: u32) -> LightPoint {
+    return light_project_from(position, 0u, face_count);
 }
 
 // Column and row of (u, v) in a window of side x side texels, clamped: border texels reach to infinity.

@@ -42,4 +42,5 @@ pub mod soft_record;
 #[cfg(any(test, feature = "random_scenes"))]
 pub mod soft_scenes;
 pub mod table_fill;
+pub mod threaded;
 pub mod view_planes;

@@ -1,6 +1,6 @@
 // The (cell, caster) pairs of a face's regions. Joined after light_frame and what regions are made of; followed by a kernel that names
 // a type `Caster` with a member `casts`, a type `Region` with members `touched`, `first` and `last` (columns and rows of its box), and
-// gives `caster_of(triangle)`, `region_of(caster, face)`, `region_columns(region, row)` and `region_is_behind(region, far, at)`.
+// binds what it makes them of from 12 on, and gives `caster_of(triangle)`, `region_of(caster, face)`, `region_columns(region, row)` and `region_is_behind(region, far, at)`.
 //
 // Which of three ways a caster goes depends on the texels under it: walked by one invocation; by eight that share out its rows; by
 // workgroups that do. So no invocation comes near the loop limit, and neighbours in a SIMD group do like work.
@@ -11,26 +11,26 @@ struct Numbers {
     // Workgroups for a caster of the third kind.
     shares: u32,
     zero: u32,
-    // Of the kernel.
-    choice: u32,
+    // Casters of this walk: the first, and how many.
+    first: u32,
+    count: u32,
 }
 @group(0) @binding(0) var<uniform> numbers: Numbers;
-@group(0) @binding(1) var<storage, read> triangles: array<f32>;
-@group(0) @binding(2) var<storage, read> caster_state: array<u32>;
-@group(0) @binding(4) var<storage, read> light_frame: array<f32>;
-@group(0) @binding(5) var<storage, read> list_length: array<u32>;
-@group(0) @binding(6) var<storage, read> list_far: array<f32>;
-@group(0) @binding(7) var<storage, read_write> pair_cell: array<u32>;
-@group(0) @binding(8) var<storage, read_write> pair_slot: array<u32>;
-@group(0) @binding(9) var<storage, read_write> pair_caster: array<u32>;
-@group(0) @binding(10) var<storage, read_write> caster_length: array<atomic<u32>>;
+@group(0) @binding(1) var<storage, read> caster_state: array<u32>;
+@group(0) @binding(2) var<storage, read> light_frame: array<f32>;
+@group(0) @binding(3) var<storage, read> list_length: array<u32>;
+@group(0) @binding(4) var<storage, read> list_far: array<f32>;
+@group(0) @binding(5) var<storage, read_write> pair_cell: array<u32>;
+@group(0) @binding(6) var<storage, read_write> pair_slot: array<u32>;
+@group(0) @binding(7) var<storage, read_write> pair_caster: array<u32>;
+@group(0) @binding(8) var<storage, read_write> caster_length: array<atomic<u32>>;
 // Pairs, and pairs left out because no view-sample of the cell can be blocked.
-@group(0) @binding(11) var<storage, read_write> counters: array<atomic<u32>, 2>;
-// Casters left to other kernels, as face * triangles + triangle: two queues of faces * triangles words. A caster is in each at most
+@group(0) @binding(9) var<storage, read_write> counters: array<atomic<u32>, 2>;
+// Casters left to other kernels, as face * triangles + triangle: two queues of faces * count words. A caster is in each at most
 // once for each face.
-@group(0) @binding(12) var<storage, read_write> queue: array<atomic<u32>>;
+@group(0) @binding(10) var<storage, read_write> queue: array<atomic<u32>>;
 // Casters in each queue.
-@group(0) @binding(13) var<storage, read_write> queued: array<atomic<u32>, 2>;
+@group(0) @binding(11) var<storage, read_write> queued: array<atomic<u32>, 2>;
 
 const ROWS: u32 = 0u;
 const SHARES: u32 = 1u;
@@ -48,7 +48,7 @@ fn opaque_zero() -> u32 {
 
 fn push(kind: u32, item: u32) {
     let place = atomicAdd(&queued[kind], 1u);
-    atomicStore(&queue[kind * numbers.faces * numbers.triangles + place], item);
+    atomicStore(&queue[kind * numbers.faces * numbers.count + place], item);
 }
 
 // Pairs the caster with a cell that has view-samples, some of which it may block. 1 if it can block none of them.
@@ -90,8 +90,9 @@ fn count_behind(behind: u32) {
 }
 
 // One invocation a caster: small regions are walked, others go to the first queue.
-fn walk_caster(triangle: u32) {
-    if triangle >= numbers.triangles || caster_state[triangle] == 0u {
+fn walk_caster(index: u32) {
+    let triangle = numbers.first + index;
+    if index >= numbers.count || caster_state[triangle] == 0u {
         return;
     }
     let caster = caster_of(triangle);
@@ -147,7 +148,7 @@ fn walk_row_queue(group: vec3<u32>, local: u32) {
 fn walk_share_queue(group: vec3<u32>, local: u32) {
     let index = group.x + group.y * MAX_GROUPS;
     if index < atomicLoad(&queued[SHARES]) {
-        let item = atomicLoad(&queue[numbers.faces * numbers.triangles + index]);
+        let item = atomicLoad(&queue[numbers.faces * numbers.count + index]);
         walk_share(item, group.z * GROUP + local, GROUP * numbers.shares, 0xffffffffu);
     }
 }

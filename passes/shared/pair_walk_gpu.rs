@@ -3,6 +3,7 @@
 use crate::shared::share::{Queue, record_share};
 use shadowgraph_core::record::{Bind, GpuCx, Target};
 use shadowgraph_core::shared::GROUP;
+use std::ops::Range;
 
 /// The walk in WGSL; see there for what a kernel gives it.
 pub const WGSL: &str = include_str!("pair_walk.wgsl");
@@ -14,48 +15,56 @@ const QUEUES: usize = 2;
 
 /// A kernel that makes regions.
 #[derive(Clone, Copy, Debug)]
-pub struct Kernel {
+pub struct Kernel<'a> {
     /// Its WGSL, [`WGSL`] among it.
     pub pieces: &'static [&'static str],
     /// Entry points: one invocation a caster, rows, shares.
     pub entries: [&'static str; 3],
     /// Labels of these.
     pub labels: [&'static str; 3],
-    /// Bound at 3: the light as the kernel reads it.
-    pub lights: Target,
-    /// A number for it.
-    pub choice: u32,
+    /// Bound from 12 on: what the kernel makes casters and regions of.
+    pub sources: &'a [Target],
 }
 
-/// Records `kernel` over all casters.
-pub fn record_walk(cx: &mut GpuCx, kernel: Kernel) {
+/// Memory of a walk, for so many casters at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct Queues {
+    queue: Target,
+    queued: Target,
+}
+
+impl Queues {
+    /// Room for `caster_count` casters on every face; forgets all pairs.
+    pub fn new(cx: &mut GpuCx, caster_count: usize) -> Self {
+        let queue = cx.scratch("walk_queue", QUEUES * cx.dim("list_length", 0) * caster_count);
+        let queued = cx.scratch("walk_queued", QUEUES);
+        cx.zero(Target::Port("caster_length"));
+        Self { queue, queued }
+    }
+}
+
+/// Records `kernel` over `casters`.
+pub fn record_walk(cx: &mut GpuCx, kernel: Kernel, queues: Queues, casters: Range<usize>) {
     let triangle_count = cx.dim("triangles", 0);
     let [face_count, side] = [cx.dim("list_length", 0), cx.dim("list_length", 1)];
-    let queue = cx.scratch("walk_queue", QUEUES * face_count * triangle_count);
-    let queued = cx.scratch("walk_queued", QUEUES);
+    let Queues { queue, queued } = queues;
     cx.zero(queued);
-    cx.zero(Target::Port("caster_length"));
     let rows_each = (SHARE_TEXELS / side.max(1)).max(1);
     let shares = side.div_ceil(GROUP * rows_each).max(1) as u32;
-    let numbers = vec![triangle_count as u32, face_count as u32, side as u32, shares, 0, kernel.choice];
+    let [first, count] = [casters.start, casters.len()].map(|number| number as u32);
+    let numbers = vec![triangle_count as u32, face_count as u32, side as u32, shares, 0, first, count];
     let port = Target::Port;
-    let read = [
-        port("triangles"),
-        port("caster_state"),
-        kernel.lights,
-        port("light_frame"),
-        port("list_length"),
-        port("list_far"),
-    ];
+    let read = ["caster_state", "light_frame", "list_length", "list_far"].map(port);
     let outputs = ["pair_cell", "pair_slot", "pair_caster", "caster_length"].map(port);
     let written = outputs.into_iter().chain([Target::Counters, queue, queued]);
     let bind: Vec<Bind> = std::iter::once(Bind::Uniform(numbers))
         .chain(read.map(Bind::Read))
         .chain(written.map(Bind::ReadWrite))
+        .chain(kernel.sources.iter().copied().map(Bind::Read))
         .collect();
     let [entry, entry_rows, entry_shares] = kernel.entries;
     let [label, label_rows, label_shares] = kernel.labels;
-    cx.dispatch(label, kernel.pieces, entry, bind.clone(), triangle_count, GROUP);
+    cx.dispatch(label, kernel.pieces, entry, bind.clone(), casters.len(), GROUP);
     let rows = Queue { queued, word: 0, items: 8, groups: 1 };
     record_share(cx, label_rows, kernel.pieces, entry_rows, bind.clone(), rows);
     let shared = Queue { word: 1, items: 1, groups: shares, ..rows };

@@ -7,7 +7,7 @@
 //! `bias_slope` 1 a plane does not shadow itself. The growth is cut at [`SLOPE_CAP`] texels' width: a plane seen edge-on
 //! would need all bias there is. Taps outside the map are lit.
 
-use crate::shared::light_frame::{Face, project};
+use crate::shared::light_frame::{Face, Projected, project};
 use crate::shared::shadow_map::{linear_from_depth, step};
 use glam::Vec3;
 use shadowgraph_core::param::{ParamSpec, Range};
@@ -64,42 +64,76 @@ pub struct Map<'a> {
     pub side: usize,
 }
 
-/// Share of the taps that see the light, 0..=1.
-pub fn visible(map: Map, lookup: Lookup, position: Vec3, normal: Vec3) -> f32 {
-    let Some(first) = project(map.faces, position) else { return 1.0 };
+/// A view-sample moved along its normal, as a face of a map sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    /// Where.
+    pub point: Projected,
+    /// Extent of a texel in u and v.
+    pub pitch: [f32; 2],
+    /// The view-sample's normal, on the light's side.
+    pub toward: Vec3,
+    /// Distance of the face's origin from the view-sample's plane, over its depth.
+    pub along: f32,
+    /// A texel's larger side at the view-sample's depth, scene units.
+    pub width: f32,
+}
+
+/// Where a view-sample falls; none where no face sees it, which is lit.
+#[inline]
+pub fn place(map: Map, lookup: Lookup, position: Vec3, normal: Vec3) -> Option<Placed> {
+    let first = project(map.faces, position)?;
     let face = &map.faces[first.face];
     let pitch = [face.window_size[0] / map.side as f32, face.window_size[1] / map.side as f32];
     let toward = if normal.dot(face.origin - position) < 0.0 { -normal } else { normal };
     let texel_width = first.depth * pitch[0].max(pitch[1]);
     let moved = position + toward * (lookup.normal_offset * texel_width);
-    let Some(point) = project(map.faces, moved) else { return 1.0 };
+    let point = project(map.faces, moved)?;
     let face = &map.faces[point.face];
     let pitch = [face.window_size[0] / map.side as f32, face.window_size[1] / map.side as f32];
-
-    // Growth of the plane's depth w = n . P / (n . (u x + v y + z)) over a texel in u and in v.
     let along = (toward.dot(moved - face.origin) / point.depth).abs();
-    let across = (toward.dot(face.axis_x) * pitch[0]).abs() + (toward.dot(face.axis_y) * pitch[1]).abs();
-    let width = point.depth * pitch[0].max(pitch[1]);
-    let growth = (point.depth * across).min(SLOPE_CAP * width * along) / along.max(1e-20);
-    let bias =
-        lookup.bias_constant + lookup.bias_slope * 0.5 * lookup.kernel as f32 * growth + step(point.depth, face.far);
+    Some(Placed { point, pitch, toward, along, width: point.depth * pitch[0].max(pitch[1]) })
+}
 
-    let column = ((point.u - face.window_low[0]) / pitch[0]).floor();
-    let row = ((point.v - face.window_low[1]) / pitch[1]).floor();
+/// Bias of a square of `lookup.kernel` texels a side, scene units.
+#[inline]
+pub fn bias(map: Map, lookup: Lookup, placed: &Placed) -> f32 {
+    // Growth of the plane's depth w = n . P / (n . (u x + v y + z)) over a texel in u and in v.
+    let face = &map.faces[placed.point.face];
+    let across = (placed.toward.dot(face.axis_x) * placed.pitch[0]).abs()
+        + (placed.toward.dot(face.axis_y) * placed.pitch[1]).abs();
+    let depth = placed.point.depth;
+    let growth = (depth * across).min(SLOPE_CAP * placed.width * placed.along) / placed.along.max(1e-20);
+    lookup.bias_constant + lookup.bias_slope * 0.5 * lookup.kernel as f32 * growth + step(depth, face.far)
+}
+
+/// Depth that the map holds in a texel, given as whole numbers, of a face; infinite outside the map.
+#[inline]
+pub fn seen(map: Map, face: usize, column: f32, row: f32) -> f32 {
     let last = map.side as f32 - 1.0;
-    let layer = &map.depth[point.face * map.side * map.side..][..map.side * map.side];
+    let is_inside = column >= 0.0 && column <= last && row >= 0.0 && row <= last;
+    if !is_inside {
+        return f32::INFINITY;
+    }
+    let texel = (face * map.side + row as usize) * map.side + column as usize;
+    linear_from_depth(map.depth[texel], map.faces[face].far)
+}
+
+/// Share of the taps that see the light, 0..=1.
+#[inline]
+pub fn visible(map: Map, lookup: Lookup, position: Vec3, normal: Vec3) -> f32 {
+    let Some(placed) = place(map, lookup, position, normal) else { return 1.0 };
+    let bias = bias(map, lookup, &placed);
+    let Placed { point, pitch, .. } = placed;
+    let low = map.faces[point.face].window_low;
+    let column = ((point.u - low[0]) / pitch[0]).floor();
+    let row = ((point.v - low[1]) / pitch[1]).floor();
     let reach = (lookup.kernel / 2) as f32;
     let mut lit = 0;
     for tap in 0..lookup.kernel * lookup.kernel {
         let column = column + (tap % lookup.kernel) as f32 - reach;
         let row = row + (tap / lookup.kernel) as f32 - reach;
-        let is_inside = column >= 0.0 && column <= last && row >= 0.0 && row <= last;
-        let seen = if is_inside {
-            linear_from_depth(layer[row as usize * map.side + column as usize], face.far)
-        } else {
-            f32::INFINITY
-        };
-        lit += u32::from(point.depth - bias <= seen);
+        lit += u32::from(point.depth - bias <= seen(map, point.face, column, row));
     }
     lit as f32 / (lookup.kernel * lookup.kernel) as f32
 }

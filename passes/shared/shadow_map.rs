@@ -4,8 +4,12 @@
 //! A face's map spans its window, from `far * NEAR_SHARE` to `far`, the largest depth of its view-samples: what lies further
 //! hides none of them. Casters nearer than the near plane are lost, a thousandth of the way to the furthest view-sample.
 //! Stored is the rasteriser's own hyperbolic depth `d = far / (far - near) (1 - near / w)` of depth w along the face's axis,
-//! linear over a triangle in the map; 1 means that nothing was seen. [`step`] is what two units in the last place of
-//! d near 1 are in scene units: `w^2 / near` 2^-23, at w = far some 1.2e-4 of far.
+//! linear over a triangle in the map; 1 means that nothing was seen. [`step`] is what four units in the last place of
+//! d near 1 are in scene units: `w^2 / near` 2^-22, at w = far some 2.4e-4 of far. Two do for arithmetic that rounds once; a device
+//! that interpolates over a large triangle needs more.
+
+use shadowgraph_core::problem::{Kind, Problem};
+use shadowgraph_core::record::GpuCx;
 
 /// The map's declarations and readers in WGSL, joined after `light_frame::WGSL`.
 pub const WGSL: &str = include_str!("shadow_map.wgsl");
@@ -36,7 +40,23 @@ pub fn linear_from_depth(depth: f32, far: f32) -> f32 {
 /// How far rounding of the stored depth may move a surface at `w`, scene units.
 #[inline]
 pub fn step(w: f32, far: f32) -> f32 {
-    w * w / (far * NEAR_SHARE) * (1.0 / (1 << 23) as f32)
+    w * w / (far * NEAR_SHARE) * (1.0 / (1 << 22) as f32)
+}
+
+/// The side that the parameter called `name` gives, if the device has textures of that size.
+///
+/// # Errors
+/// A side above the device's limit.
+pub fn side_on_device(cx: &GpuCx, name: &'static str) -> Result<u32, Problem> {
+    let (side, limit) = (cx.params().u32(name), cx.limits().texture_side);
+    if side > limit {
+        return Err(Problem::new(Kind::Unsupported, "the shadow map is larger than the device's largest texture")
+            .port(name)
+            .expected(format!("at most {limit}"))
+            .found(side.to_string())
+            .remedy("set a smaller size, or `on: Cpu` for this node"));
+    }
+    Ok(side)
 }
 
 #[cfg(test)]

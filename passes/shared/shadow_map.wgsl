@@ -14,5 +14,5 @@ fn linear_from_depth(depth: f32, far: f32) -> f32 {
 }
 
 fn depth_step(w: f32, far: f32) -> f32 {
-    return w * w / (far * NEAR_SHARE) * 0.00000011920929;
+    return w * w / (far * NEAR_SHARE) * 0.00000023841858;
 }

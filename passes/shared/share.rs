@@ -53,7 +53,7 @@ pub fn check_hard(cx: &GpuCx) -> Result<(), Problem> {
             .port("light_samples")
             .expected("1 light sample")
             .found(format!("{light_count} light samples"))
-            .remedy("use a graph for soft shadows, or a light of radius 0"));
+            .remedy("use a graph for soft shadows, or one light sample"));
     }
     let triangle_count = cx.dim("triangles", 0);
     if triangle_count >= MOST_TRIANGLES {

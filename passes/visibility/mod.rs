@@ -8,7 +8,9 @@ pub mod half_planes;
 pub mod lu;
 pub mod lu_certain;
 pub mod lu_planar;
+pub mod multi_shadow_map;
 pub mod planes;
+pub mod shafts;
 
 use crate::ports;
 use shadowgraph_core::input;
@@ -25,6 +27,7 @@ pub static STAGE: Stage = Stage {
         input::LIGHT_SAMPLES.read(),
         ports::LIGHT_FRAME.read(),
         ports::POSITION.read(),
+        ports::NORMAL.read(),
         ports::TRIANGLE.read(),
         ports::SAMPLE_STATE.read(),
         ports::CELL.read(),
@@ -36,6 +39,8 @@ pub static STAGE: Stage = Stage {
         ports::CASTER_ENTRIES.read(),
         ports::LU.optional(),
         ports::LU_LAYOUT.optional(),
+        ports::BVH_NODES.optional(),
+        ports::BVH_ORDER.optional(),
         ports::MASK,
     ],
 };
@@ -48,7 +53,9 @@ pub const PASSES: &[&Pass] = &[
     &exact::PASS,
     &bvh_rays::PASS,
     &half_planes::PASS,
+    &shafts::PASS,
     &lu::PASS,
     &lu_planar::PASS,
     &lu_certain::PASS,
+    &multi_shadow_map::PASS,
 ];

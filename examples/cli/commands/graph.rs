@@ -53,6 +53,7 @@ fn facts(held: &[String]) -> Result<Facts, Problem> {
     Ok(Facts {
         light_is_point: holds("light_is_point"),
         light_is_planar: holds("light_is_planar"),
+        light_is_textured: holds("light_is_textured"),
         light_inside_scene: holds("light_inside_scene"),
         all_casters_closed: holds("all_casters_closed"),
         transparency_present: holds("transparency_present"),

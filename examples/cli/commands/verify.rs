@@ -36,11 +36,12 @@ pub struct Row {
 /// # Errors
 /// What is wrong with scene, graph or flags; what a node reports.
 pub fn text(catalogue: &Catalogue, args: &VerifyArgs) -> Result<(String, bool), Problems> {
-    let first = Job::load(&args.scene)?;
+    let scene_choice = args.scene.for_graph(graph_choice::light_samples(&args.graph)?);
+    let first = Job::load(&scene_choice)?;
     let mut jobs = Vec::new();
     if args.all_views {
         for name in shadowgraph_scenes::view_names(&first.scene, &args.scene.scene, args.scene.views.as_deref())? {
-            let mut choice = args.scene.clone();
+            let mut choice = scene_choice.clone();
             choice.view = Some(name.clone());
             let view = shadowgraph_scenes::choose_view(
                 &first.scene,
@@ -53,7 +54,7 @@ pub fn text(catalogue: &Catalogue, args: &VerifyArgs) -> Result<(String, bool), 
     } else {
         jobs.push((first.camera.name.clone(), first));
     }
-    let mut machine = Machine::new(args.run.backend)?;
+    let mut machine = Machine::new(args.run.backend)?.in_ranges(args.run.ranges);
     let mut rows = Vec::new();
     for (name, job) in jobs {
         rows.push(verify(catalogue, args, &mut machine, name, &job)?);
@@ -109,7 +110,8 @@ pub fn verify(
     };
     let filters_facing =
         plan.nodes.iter().any(|node| node.pass.stage.name == "sample_filter" && node.pass.name != "all");
-    let verdict = judge(&answer, truth.mask, truth.state, job.samples.len(), filters_facing, job.image[0], contact);
+    let verdict =
+        judge(&answer, truth.mask, truth.state, job.light_samples_count(), filters_facing, job.image[0], contact);
     if let Some(folder) = &args.out {
         std::fs::create_dir_all(folder).map_err(|error| file_problem(folder, &error))?;
         let name = if view.is_empty() { "wrong.png".to_string() } else { format!("wrong-{view}.png") };

@@ -3,9 +3,11 @@
 
 mod columns;
 mod ends;
+mod extended;
 mod facets;
 mod grass;
 mod hairball;
+mod known;
 mod moving;
 mod plains;
 mod random_triangles;
@@ -16,6 +18,8 @@ mod spec;
 mod thin;
 mod torus_knot;
 mod touching;
+
+pub use known::Known;
 
 use crate::soup::Soup;
 use shadowgraph_core::param::{ParamSpec, Params};
@@ -70,6 +74,15 @@ const LIST: &[Builtin] = &[
     facets::SELF,
     facets::COPLANAR,
     grass::LAWN,
+    extended::BIG_PENUMBRA,
+    extended::VOLUMETRIC,
+    extended::TEXTURED,
+    known::HALF_PLANE,
+    known::SPHERE,
+    known::POLYGON,
+    known::APART,
+    known::NESTED,
+    known::FUSION,
     moving::LIGHT,
     moving::CAMERA,
     ends::EMPTY,
@@ -80,6 +93,16 @@ const LIST: &[Builtin] = &[
 pub fn build(text: &str) -> Result<Scene, Problem> {
     let (scene, params) = spec::parse(text)?;
     Ok((scene.build)(&params).finish(&format!("{PREFIX}{text}")))
+}
+
+/// Light and casters of `NAME?param=value&..`, if its soft shadow on the ground has a closed form.
+///
+/// # Errors
+/// No such scene, or a wrong parameter.
+pub fn known(text: &str) -> Result<Option<Known>, Problem> {
+    let (scene, params) = spec::parse(text)?;
+    let has_closed_form = known::SCENES.iter().any(|known| known.name == scene.name);
+    Ok(if has_closed_form { Known::of(&(scene.build)(&params)) } else { None })
 }
 
 #[cfg(test)]

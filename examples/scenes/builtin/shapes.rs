@@ -2,7 +2,7 @@
 
 use crate::soup::{Look, Soup};
 use glam::{Vec3, vec3};
-use shadowgraph_core::scene::{Camera, Light, flag};
+use shadowgraph_core::scene::{Camera, Light, LightShape, flag};
 use std::f32::consts::TAU;
 
 /// Look of receivers.
@@ -34,7 +34,13 @@ pub fn look_through(soup: &mut Soup, eye: Vec3, target: Vec3, degrees: f32) {
 
 /// The scene's light, white, with the radius that soft shadows use.
 pub fn light_at(soup: &mut Soup, position: Vec3, radius: f32) {
-    soup.lights.push(Light { name: "default".into(), position: position.to_array(), radius, color: [1.0; 3] });
+    soup.lights.push(Light::sphere("default", position.to_array(), radius));
+}
+
+/// The scene's light, white, a horizontal rectangle with these half sides along x and z.
+pub fn rectangle_light_at(soup: &mut Soup, centre: Vec3, [x, z]: [f32; 2]) {
+    let half_axes = [[x, 0.0, 0.0], [0.0, 0.0, -z]];
+    soup.lights.push(Light::shaped("default", centre.to_array(), LightShape::Rectangle { half_axes }));
 }
 
 /// The quad a, b, c, d, split along a-c.

@@ -81,12 +81,8 @@ pub fn append(
                 counts.lost_nodes += 1;
                 continue;
             }
-            soup.lights.push(Light {
-                name: name(&light.name, "light"),
-                position: position.as_vec3().to_array(),
-                radius: 0.0,
-                color: light.color.map(|part| if part.is_finite() { part.max(0.0) } else { 1.0 }),
-            });
+            let color = light.color.map(|part| if part.is_finite() { part.max(0.0) } else { 1.0 });
+            soup.lights.push(Light::point(name(&light.name, "light"), position.as_vec3().to_array()).colored(color));
         }
     }
     Ok(())

@@ -22,7 +22,7 @@ pub static PASS: Pass = Pass {
     stage: &super::STAGE,
     doc: "Bent light: the smallest cosine among the faces around each vertex.",
     source: "Sintorn 2008, section 4.3, Shading",
-    ignores: &[],
+    ignores: &["light_samples"],
     params: &[],
     counters: &[],
     contract: Contract::Within(1e-4),

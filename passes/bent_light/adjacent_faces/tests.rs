@@ -1,5 +1,17 @@
-use super::cpu::smallest;
+use super::cpu::cosine;
+use crate::bent_light::around::Mesh;
+use crate::shared::shading::Corners;
 use glam::Vec3;
+
+fn smallest(
+    triangles: &[Corners],
+    corner_vertex: &[[u32; 3]],
+    face_offset: &[u32],
+    faces: &[u32],
+    light: Vec3,
+) -> Vec<[f32; 3]> {
+    Mesh { triangles, corner_vertex, face_offset, faces }.smallest(|normal, at| cosine(normal, at, light))
+}
 
 #[test]
 fn a_ridge_takes_the_darker_of_its_two_faces_and_keeps_the_other_corners() {

@@ -16,7 +16,7 @@ pub static PASS: Pass = Pass {
     stage: &super::STAGE,
     doc: "The cosine at each corner with the triangle's own normal only: flat shading.",
     source: "Sintorn 2008, section 4.3, Shading, with no neighbours",
-    ignores: &["corner_vertex", "face_offset", "faces"],
+    ignores: &["corner_vertex", "face_offset", "faces", "light_samples"],
     params: &[],
     counters: &[],
     contract: Contract::Within(1e-4),

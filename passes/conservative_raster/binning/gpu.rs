@@ -1,7 +1,7 @@
 //! The recipe: walk small casters, share out large ones.
 
 use crate::shared::light_frame;
-use crate::shared::pair_walk_gpu::{self, Kernel, record_walk};
+use crate::shared::pair_walk_gpu::{self, Kernel, Queues, record_walk};
 use crate::shared::share::check_hard;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::{GpuCx, Target};
@@ -19,13 +19,14 @@ const KERNEL: Kernel = Kernel {
     ],
     entries: ["binning", "binning_rows", "binning_shares"],
     labels: ["binning", "binning/rows", "binning/shares"],
-    lights: Target::Port("light_samples"),
-    choice: 0,
+    sources: &[Target::Port("triangles"), Target::Port("light_samples")],
 };
 
 /// Records the pass.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     check_hard(cx)?;
-    record_walk(cx, KERNEL);
+    let caster_count = cx.dim("triangles", 0);
+    let queues = Queues::new(cx, caster_count);
+    record_walk(cx, KERNEL, queues, 0..caster_count);
     Ok(())
 }

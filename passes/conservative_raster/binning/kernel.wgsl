@@ -1,5 +1,6 @@
 // Joined after light_frame, predicate, pyramid, footprint and pair_walk, which it gives casters and their footprints.
-@group(0) @binding(3) var<storage, read> light_samples: array<f32>;
+@group(0) @binding(12) var<storage, read> triangles: array<f32>;
+@group(0) @binding(13) var<storage, read> light_samples: array<f32>;
 
 struct Caster {
     // Corners from the light sample.

@@ -19,7 +19,7 @@ pub const PIECES: &[&str] = &[
 
 /// The recipe.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
-    let side = super::super::side_on_device(cx)?;
+    let side = shadow_map::side_on_device(cx, super::super::SIZE.name)?;
     let vertices = 3 * cx.dim(input::TRIANGLES.name, 0) as u32;
     for layer in 0..cx.dim(ports::DEPTH.name, 0) as u32 {
         cx.push(Command::Draw(Draw {

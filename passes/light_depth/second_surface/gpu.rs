@@ -30,7 +30,7 @@ pub const SECOND: &[&str] = &[
 
 /// The recipe.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
-    let side = super::super::side_on_device(cx)?;
+    let side = shadow_map::side_on_device(cx, super::super::SIZE.name)?;
     let vertices = 3 * cx.dim(input::TRIANGLES.name, 0) as u32;
     // One layer serves face after face.
     let first = cx.scratch_texture("first surface", Storage::DepthTexture, vec![1, side as usize, side as usize]);

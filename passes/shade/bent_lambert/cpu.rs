@@ -23,8 +23,9 @@ pub fn light_term(surface: &Surface, corner_light: Vec3, c: f32) -> f32 {
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let c = cx.params().f32(super::SHARPNESS.name);
     let corner_light = cx.input(ports::CORNER_LIGHT.name).as_vec3();
-    picture(cx, |surface| {
-        surface.albedo * surface.light * light_term(surface, Vec3::from(corner_light[surface.triangle]), c)
+    picture(cx, |_, surface| {
+        let term = light_term(surface, Vec3::from(corner_light[surface.triangle]), c);
+        surface.visible * (surface.albedo * surface.light * term)
     });
     Ok(())
 }

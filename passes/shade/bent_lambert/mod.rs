@@ -1,7 +1,8 @@
 //! `bent_lambert`: Lambert's cosine with interpolated normals, bent to black on every face turned away from the light (Sintorn,
 //! Eisemann, Assarsson 2008, section 4.3, Shading; the right of its Figure 8).
 //!
-//! In: view-samples (`position`, `normal`, `triangle`, `pixel`, `sample_state`), `visible [P]`, the scene's `triangles`,
+//! In: view-samples (`position`, `normal`, `triangle`, `pixel`, `sample_state`), `visible [P]` or
+//! `visible_color [P 3]`, the scene's `triangles`,
 //! `triangle_normals`, `triangle_albedo`, `corner_light [T 3]`, `light [8]`. Out: `image [H W 4]`, linear RGB and coverage, 1 where a
 //! surface is seen.
 //!
@@ -34,7 +35,7 @@ pub static PASS: Pass = Pass {
     stage: &super::STAGE,
     doc: "Lambert shading with smooth normals that leak no light onto faces turned away.",
     source: "Sintorn 2008, section 4.3, Shading",
-    ignores: &["camera"],
+    ignores: &["camera", "mask", "light_samples", "light_weights"],
     params: &[SHARPNESS, AMBIENT, FALLOFF, FALLOFF_DISTANCE, BACKGROUND_RED, BACKGROUND_GREEN, BACKGROUND_BLUE],
     counters: &[super::OUTSIDE],
     contract: Contract::Within(1e-3),

@@ -21,7 +21,7 @@ fn surface(toward_light: Vec3, is_flipped: bool) -> Surface {
         toward_light,
         albedo: Vec3::ONE,
         light: Vec3::ONE,
-        visible: 1.0,
+        visible: Vec3::ONE,
     }
 }
 

@@ -1,24 +1,19 @@
-//! Background and surfaces.
+//! Light terms, then colours.
 
-use crate::shade::gpu;
+use crate::shade::gpu::{CENTRE, COLOR, NUMBERS, REFLECTION, SURFACE, VISIBLE, record_factored};
+use crate::shade::reflection::Reflection;
 use crate::shared::shading;
 use shadowgraph_core::input;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::GpuCx;
 use shadowgraph_core::shared::PRELUDE;
 
-/// Everything both kernels are made of.
-pub const PIECES: &[&str] = &[
-    PRELUDE,
-    shading::WGSL,
-    include_str!("../surface.wgsl"),
-    include_str!("../background.wgsl"),
-    include_str!("kernel.wgsl"),
-];
+const TERMS: &[&str] = &[PRELUDE, NUMBERS, shading::WGSL, SURFACE, CENTRE, REFLECTION, include_str!("kernel.wgsl")];
+const COLORS: &[&str] = &[PRELUDE, NUMBERS, COLOR, VISIBLE, include_str!("color.wgsl")];
 
 /// The recipe.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
-    let numbers = [super::SPECULAR, super::SHININESS].map(|spec| cx.params().f32(spec.name));
-    gpu::record(cx, "shade/phong", PIECES, "phong", numbers, &[input::CAMERA.name]);
+    let Reflection { specular, shininess } = Reflection::new(cx.params());
+    record_factored(cx, "shade/phong", [TERMS, COLORS], "phong", [specular, shininess], input::CAMERA.name);
     Ok(())
 }

@@ -1,7 +1,8 @@
 //! `phong`: Lambert's cosine with interpolated normals, and a highlight if asked for (Phong 1975; Gouraud 1971). Light leaks onto
 //! faces turned away from it, which accurate shadows then cut off hard: the left of Figure 8 of Sintorn, Eisemann, Assarsson 2008.
 //!
-//! In: view-samples (`position`, `normal`, `triangle`, `pixel`, `sample_state`), `visible [P]`, the scene's `triangles`,
+//! In: view-samples (`position`, `normal`, `triangle`, `pixel`, `sample_state`), `visible [P]` or
+//! `visible_color [P 3]`, the scene's `triangles`,
 //! `triangle_normals`, `triangle_albedo`, `camera [20]`, `light [8]`. Out: `image [H W 4]`, linear RGB and coverage, 1 where a surface
 //! is seen.
 //!
@@ -15,21 +16,8 @@ mod gpu;
 mod tests;
 
 use super::params::{AMBIENT, BACKGROUND_BLUE, BACKGROUND_GREEN, BACKGROUND_RED, FALLOFF, FALLOFF_DISTANCE};
-use shadowgraph_core::param::{ParamSpec, Range};
+use super::reflection::{SHININESS, SPECULAR};
 use shadowgraph_core::pass::{Contract, Pass};
-
-const SPECULAR: ParamSpec = ParamSpec {
-    name: "specular",
-    range: Range::F32 { min: 0.0, max: 1e3, default: 0.0 },
-    unit: "share of the light's colour",
-    doc: "strength of the highlight; 0 is none",
-};
-const SHININESS: ParamSpec = ParamSpec {
-    name: "shininess",
-    range: Range::F32 { min: 1.0, max: 1e4, default: 32.0 },
-    unit: "",
-    doc: "the highlight is smaller as it grows",
-};
 
 /// The pass.
 pub static PASS: Pass = Pass {
@@ -37,7 +25,7 @@ pub static PASS: Pass = Pass {
     stage: &super::STAGE,
     doc: "Plain shading with smooth normals: light leaks past the terminator.",
     source: "Phong 1975; Sintorn 2008, Figure 8",
-    ignores: &["corner_light"],
+    ignores: &["corner_light", "mask", "light_samples", "light_weights"],
     params: &[
         SPECULAR,
         SHININESS,

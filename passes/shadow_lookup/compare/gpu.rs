@@ -6,8 +6,14 @@ use shadowgraph_core::record::GpuCx;
 use shadowgraph_core::shared::PRELUDE;
 
 /// Everything the kernel is made of.
-pub const PIECES: &[&str] =
-    &[PRELUDE, light_frame::WGSL, shadow_map::WGSL, shadow_lookup::WGSL, include_str!("kernel.wgsl")];
+pub const PIECES: &[&str] = &[
+    PRELUDE,
+    light_frame::WGSL,
+    shadow_map::WGSL,
+    shadow_lookup::WGSL,
+    include_str!("../one_light_sample.wgsl"),
+    include_str!("kernel.wgsl"),
+];
 
 /// The recipe.
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {

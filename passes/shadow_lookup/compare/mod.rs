@@ -21,7 +21,7 @@ pub static PASS: Pass = Pass {
     stage: &super::STAGE,
     doc: "One comparison with the shadow map, with constant, slope-scaled and normal-offset bias.",
     source: "Williams 1978",
-    ignores: &[],
+    ignores: &["light"],
     params: &[BIAS_CONSTANT, BIAS_SLOPE, NORMAL_OFFSET],
     counters: &[],
     contract: Contract::Approximate,

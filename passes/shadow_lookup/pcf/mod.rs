@@ -32,7 +32,7 @@ pub static PASS: Pass = Pass {
     stage: &super::STAGE,
     doc: "The share of k x k comparisons with the shadow map that are lit.",
     source: "Reeves, Salesin, Cook 1987",
-    ignores: &[],
+    ignores: &["light"],
     params: &[KERNEL, BIAS_CONSTANT, BIAS_SLOPE, NORMAL_OFFSET],
     counters: &[],
     contract: Contract::Approximate,

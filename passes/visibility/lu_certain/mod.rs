@@ -33,7 +33,7 @@ pub static PASS: Pass = Pass {
     stage: &STAGE,
     doc: "Looks up what is certain and decides the rest by arithmetic: exact.",
     source: "Sintorn 2008, section 4.2; departs: certain and possible bits apart",
-    ignores: &["light_frame", "list_length", "list_far"],
+    ignores: &["light_frame", "normal", "list_length", "list_far", "bvh_nodes", "bvh_order"],
     params: &[],
     counters: &[
         Counter {

@@ -35,7 +35,7 @@ pub static PASS: Pass = Pass {
     stage: &STAGE,
     doc: "Looks up the planes of each caster listed in the view-sample's cell in a table over lines of the light's plane.",
     source: "Sintorn 2008, section 4.2; Eisemann, Decoret 2007",
-    ignores: &["light_frame", "list_length", "list_far"],
+    ignores: &["light_frame", "normal", "list_length", "list_far", "bvh_nodes", "bvh_order"],
     params: &[],
     counters: &[
         Counter {

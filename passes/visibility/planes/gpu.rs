@@ -1,4 +1,4 @@
-//! The recipe: test every view-sample, share out long cells, decide what is doubtful.
+//! The recipe: planes of every caster, test every view-sample, share out long cells, decide what is doubtful.
 
 use crate::shared::share::{Queue, check_hard, record_share};
 use shadowgraph_core::problem::Problem;
@@ -21,13 +21,18 @@ const QUEUES: usize = 3;
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     check_hard(cx)?;
     let sample_count = cx.dim("position", 0);
+    let triangle_count = cx.dim("triangles", 0);
     // A cell lists each triangle once.
-    let shares = cx.dim("triangles", 0).div_ceil(GROUP * OWN_CASTERS).max(1) as u32;
+    let shares = triangle_count.div_ceil(GROUP * OWN_CASTERS).max(1) as u32;
+    // A binding holds one row at least.
+    let rows = triangle_count.max(1);
+    let sides = cx.scratch("planes_sides", 12 * rows);
+    let fronts = cx.scratch("planes_fronts", 8 * rows);
     let queue = cx.scratch("planes_queue", QUEUES * sample_count);
     let queued = cx.scratch("planes_queued", QUEUES);
     cx.zero(queued);
     let bind = vec![
-        Bind::Uniform(vec![sample_count as u32, shares, 0]),
+        Bind::Uniform(vec![triangle_count as u32, sample_count as u32, shares, 0]),
         Bind::Read(Target::Port("triangles")),
         Bind::Read(Target::Port("caster_state")),
         Bind::Read(Target::Port("light_samples")),
@@ -41,7 +46,10 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
         Bind::ReadWrite(queue),
         Bind::ReadWrite(queued),
         Bind::ReadWrite(Target::Counters),
+        Bind::ReadWrite(sides),
+        Bind::ReadWrite(fronts),
     ];
+    cx.dispatch("planes/casters", KERNEL, "planes_casters", bind.clone(), triangle_count, GROUP);
     cx.dispatch("planes", KERNEL, "planes", bind.clone(), sample_count, GROUP);
     let long = Queue { queued, word: 0, items: 1, groups: shares };
     for (label, entry, queue) in [

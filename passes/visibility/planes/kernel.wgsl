@@ -1,7 +1,8 @@
-// Joined after predicate and pyramid. Which of four ways a view-sample goes depends on the casters of its cell: tested by one
+// Joined after predicate and pyramid. First the planes of every caster, once; then the view-samples. Which of four ways a view-sample goes depends on the casters of its cell: tested by one
 // invocation; by workgroups that share them out; and once more, likewise, where f32 left a doubt. So no invocation comes near the
 // loop limit. Software rasterisers run both sides of every branch, so the costly decision is kept out of the common loop.
 struct Numbers {
+    triangles: u32,
     samples: u32,
     // Workgroups for a view-sample of a long cell.
     shares: u32,
@@ -24,6 +25,10 @@ struct Numbers {
 @group(0) @binding(12) var<storage, read_write> queued: array<atomic<u32>, 3>;
 // Number of doubtful pairs that were decided.
 @group(0) @binding(13) var<storage, read_write> counters: array<atomic<u32>>;
+// A `Pyramid` a triangle, in two rows so that neither outgrows a binding before `triangles` nearly does: its three sides; and its
+// front, then distance and slack.
+@group(0) @binding(14) var<storage, read_write> sides: array<vec4<f32>>;
+@group(0) @binding(15) var<storage, read_write> fronts: array<vec4<f32>>;
 
 const LONG: u32 = 0u;
 const DOUBTS: u32 = 1u;
@@ -61,12 +66,40 @@ fn casters_of(sample: u32) -> vec2<u32> {
     return min(vec2<u32>(caster_offset[at], caster_offset[at + 1u]), vec2<u32>(end));
 }
 
-fn verdict(sample: Sample, entry: u32, light: vec3<f32>) -> u32 {
-    let caster = caster_entries[entry];
+// The planes of each triangle. One that casts nothing gets a front that lies behind everything, so that all verdicts are LIT.
+@compute @workgroup_size(64)
+fn planes_casters(@builtin(global_invocation_id) id: vec3<u32>) {
+    let caster = linear_index(id);
+    if caster >= numbers.triangles {
+        return;
+    }
     let a = triangle_corner(caster, 0u);
     let b = triangle_corner(caster, 1u);
     let c = triangle_corner(caster, 2u);
-    return select(LIT, pyramid_verdict(pyramid_of(a, b, c, light), caster, sample), caster_state[caster] != 0u);
+    var pyramid = pyramid_of(a, b, c, light_sample());
+    if caster_state[caster] == 0u {
+        pyramid = Pyramid(vec4<f32>(0.0), vec4<f32>(0.0), vec4<f32>(0.0), vec4<f32>(0.0), 1.0, 0.0, 0.0);
+    }
+    sides[3u * caster] = pyramid.side_0;
+    sides[3u * caster + 1u] = pyramid.side_1;
+    sides[3u * caster + 2u] = pyramid.side_2;
+    fronts[2u * caster] = pyramid.front;
+    fronts[2u * caster + 1u] = vec4<f32>(pyramid.distance, pyramid.slack, pyramid.winding, 0.0);
+}
+
+fn verdict(sample: Sample, entry: u32) -> u32 {
+    let caster = caster_entries[entry];
+    let last = fronts[2u * caster + 1u];
+    let pyramid = Pyramid(
+        sides[3u * caster],
+        sides[3u * caster + 1u],
+        sides[3u * caster + 2u],
+        fronts[2u * caster],
+        last.x,
+        last.y,
+        last.z,
+    );
+    return pyramid_verdict(pyramid, caster, sample);
 }
 
 @compute @workgroup_size(64)
@@ -86,7 +119,7 @@ fn planes(@builtin(global_invocation_id) id: vec3<u32>) {
     let sample = sample_of(place_of(index), own_triangle[index], light);
     var found = LIT;
     for (var entry = casters.x; entry < casters.y && found != BLOCKED; entry++) {
-        found = max(found, verdict(sample, entry, light));
+        found = max(found, verdict(sample, entry));
     }
     let blocked = found == BLOCKED;
     atomicStore(&mask[index], select(select(0u, 1u, blocked), 0xffffffffu, state == FACING_AWAY));
@@ -109,7 +142,7 @@ fn planes_long(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocatio
     var found = LIT;
     for (var entry = casters.x + group.z * GROUP + local; entry < casters.y && found != BLOCKED;
         entry += GROUP * numbers.shares) {
-        found = max(found, verdict(sample, entry, light));
+        found = max(found, verdict(sample, entry));
     }
     if found == BLOCKED {
         atomicStore(&mask[index], 1u);
@@ -132,7 +165,7 @@ fn decide(index: u32, first: u32, entry_step: u32) {
     while !blocked {
         var found = NO_CELL;
         while found == NO_CELL && entry < casters.y {
-            found = select(NO_CELL, entry, verdict(sample, entry, light) == DOUBTFUL);
+            found = select(NO_CELL, entry, verdict(sample, entry) == DOUBTFUL);
             entry += entry_step;
         }
         if found == NO_CELL {

@@ -1,0 +1,144 @@
+//! Clusters of view-samples in parallel.
+
+use super::cluster::{Counts, Scene, Worker};
+use super::own::World;
+use super::tree::{Casters, unit_scale};
+use crate::ports;
+use crate::shared::atomic_words::{atomic_zeros, into_words};
+use crate::shared::predicate::Corners;
+use crate::shared::segments::mask_words;
+use fearless_simd::{Level, dispatch};
+use rayon::prelude::*;
+use shadowgraph_core::array::Array;
+use shadowgraph_core::cpu::CpuCx;
+use shadowgraph_core::input;
+use shadowgraph_core::problem::{Kind, Problem};
+use shadowgraph_core::shared::{BACKGROUND, KEPT};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
+
+/// Pixels along the side of a cluster's tile.
+const TILE: usize = 16;
+
+/// What the masks are a function of.
+#[derive(Clone, Copy)]
+pub struct Receivers<'a> {
+    /// Corners of every triangle, world space.
+    pub triangles: &'a [Corners],
+    /// 1 for each triangle that casts.
+    pub caster_state: &'a [u32],
+    /// Light samples, world space, finite.
+    pub light_samples: &'a [[f32; 3]],
+    /// View-sample positions, world space.
+    pub position: &'a [[f32; 3]],
+    /// Triangle each lies on.
+    pub triangle: &'a [u32],
+    /// State of each.
+    pub sample_state: &'a [u32],
+    /// Picture width and height; view-samples that are not its pixels are taken as they come.
+    pub image: [usize; 2],
+}
+
+/// Masks `[P, mask_words]`, and what was counted.
+pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) -> (Vec<u32>, Counts) {
+    let Receivers { triangles, light_samples, position, .. } = receivers;
+    let words = mask_words(light_samples.len());
+    let masks = atomic_zeros(position.len() * words);
+    if words == 0 {
+        return (into_words(masks), Counts::default());
+    }
+    let scale = unit_scale(triangles.iter().flatten().chain(light_samples).chain(position));
+    let world = World { triangles, lights: light_samples, scale };
+    let casters = Casters::build(triangles, |id| receivers.caster_state[id] == 1, scale);
+    let lights: Vec<[f32; 3]> = light_samples.iter().map(|light| world.unit(*light)).collect();
+    let share = 1.0 / lights.len() as f32;
+    let light = lights.iter().fold([0.0; 3], |sum: [f32; 3], p| [0, 1, 2].map(|k| sum[k] + share * p[k]));
+    let scene = Scene { world, casters: &casters, position, triangle: receivers.triangle, lights: &lights, light };
+    let [width, height] = receivers.image;
+    let [width, height] = if width * height == position.len() {
+        [width, height]
+    } else {
+        [TILE * TILE, position.len().div_ceil(TILE * TILE)]
+    };
+    let tile = if width * height == position.len() && width != TILE * TILE { [TILE, TILE] } else { [TILE * TILE, 1] };
+    let across = width.div_ceil(tile[0]);
+    let tiles = across * height.div_ceil(tile[1]);
+    let done = AtomicU64::new(0);
+    let step = (tiles as u64 / 100).max(1);
+    let counts = (0..tiles)
+        .into_par_iter()
+        .map_init(
+            || (Worker::default(), Vec::new(), vec![0u32; words]),
+            |(worker, rows, mask), tile_index| {
+                let corner = [tile_index % across * tile[0], tile_index / across * tile[1]];
+                rows.clear();
+                for y in corner[1]..(corner[1] + tile[1]).min(height) {
+                    for x in corner[0]..(corner[0] + tile[0]).min(width) {
+                        rows.push((y * width + x) as u32);
+                    }
+                }
+                rows.retain(|&row| keep(&receivers, &masks, words, row as usize));
+                worker.counts = Counts::default();
+                if !rows.is_empty() {
+                    dispatch!(level, simd => worker.cluster(simd, &scene, rows));
+                    worker.write(mask, |row, mask| {
+                        for (to, from) in masks[row as usize * words..].iter().zip(mask) {
+                            to.store(*from, Relaxed);
+                        }
+                    });
+                }
+                let done = done.fetch_add(1, Relaxed) + 1;
+                if done % step == 0 {
+                    progress(done, tiles as u64);
+                }
+                worker.counts
+            },
+        )
+        .reduce(Counts::default, |mut a, b| {
+            a.add(&b);
+            a
+        });
+    (into_words(masks), counts)
+}
+
+/// Whether view-sample `row` is to be tested; the mask of one that faces away is filled.
+fn keep(receivers: &Receivers, masks: &[AtomicU32], words: usize, row: usize) -> bool {
+    match receivers.sample_state.get(row) {
+        None | Some(&BACKGROUND) => false,
+        // No predicate can be decided on what is not finite: nothing blocks it.
+        Some(&KEPT) => receivers.position[row].iter().all(|x| x.is_finite()),
+        Some(_) => {
+            masks[row * words..(row + 1) * words].iter().for_each(|word| word.store(u32::MAX, Relaxed));
+            false
+        }
+    }
+}
+
+/// The CPU function.
+pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
+    let receivers = Receivers {
+        triangles: bytemuck::cast_slice(cx.input(input::TRIANGLES.name).as_f32()),
+        caster_state: cx.input(ports::CASTER_STATE.name).as_u32(),
+        light_samples: cx.input(input::LIGHT_SAMPLES.name).as_vec3(),
+        position: cx.input(ports::POSITION.name).as_vec3(),
+        triangle: cx.input(ports::TRIANGLE.name).as_u32(),
+        sample_state: cx.input(ports::SAMPLE_STATE.name).as_u32(),
+        image: cx.image(),
+    };
+    if let Some(at) = receivers.light_samples.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        return Err(Problem::new(Kind::BadValue, "a light sample has no place")
+            .port(input::LIGHT_SAMPLES.name)
+            .expected("finite coordinates")
+            .found(format!("{:?} for light sample {at}", receivers.light_samples[at]))
+            .remedy("leave it out"));
+    }
+    let (masks, counts) = answer(receivers, Level::new(), cx.progress());
+    let shape = [receivers.position.len(), mask_words(receivers.light_samples.len())];
+    cx.put(ports::MASK.name, Array::u32(shape, masks));
+    cx.count("shafts", counts.shafts);
+    cx.count("lit_shafts", counts.lit);
+    cx.count("covered_shafts", counts.covered);
+    cx.count("met", counts.met);
+    cx.count("tested", counts.tested);
+    cx.count("exact", counts.exact);
+    Ok(())
+}

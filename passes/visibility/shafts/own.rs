@@ -1,0 +1,290 @@
+//! The own triangles of a cluster's view-samples, and which casters they let through.
+//!
+//! A caster with no corner strictly above the plane of the triangle that a view-sample lies on, on the light sample's side, cannot
+//! block there ([`crate::shared::predicate`]), and no triangle blocks points of itself. Bounds over all planes of the cluster
+//! settle most casters at once; what is left is looked at plane by plane, in doubt exactly, once for the cluster.
+
+use super::LANES;
+use super::candidates::Candidates;
+use super::groups::{Frame, cross, dot, size};
+use super::shaft::PLANE_ERROR;
+use crate::shared::predicate::{Corners, side};
+use std::collections::HashMap;
+
+/// Answers of the exact predicate that a thread keeps at most.
+const MOST_KNOWN: usize = 1 << 18;
+
+/// An own triangle.
+struct Plane {
+    triangle: u32,
+    /// Unit normal, towards the middle of the light, and constant; zero when in doubt.
+    normal: [f32; 3],
+    constant: f32,
+    /// Bound on the error of a height, as a share of the sizes of both points.
+    error: f32,
+    size: f32,
+    /// The side of the world's plane that is above here: 1 or -1.
+    up: i32,
+    /// All light samples are above for certain.
+    lit: bool,
+    /// Sides of all light samples, exactly; made when first asked for.
+    sides: Vec<i8>,
+}
+
+/// What the planes make of a caster.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// No view-sample lies on it, and every plane lets it through for every light sample.
+    Plain,
+    /// It blocks nothing here.
+    Never,
+    /// Look at row `.0`.
+    Mixed(u32),
+}
+
+/// Above and below: whether the caster has corners strictly there. `MINE`: the caster itself.
+const ABOVE: u8 = 1;
+const BELOW: u8 = 2;
+const MINE: u8 = 4;
+
+/// All own triangles of a cluster.
+#[derive(Default)]
+pub struct OwnPlanes {
+    planes: Vec<Plane>,
+    /// Plane of each view-sample, by place; `NONE` when it lies on no triangle.
+    of_view: Vec<u16>,
+    rows: Vec<u8>,
+    mean: [f32; 3],
+    spread: f32,
+    /// Smallest and largest constants with the bounds of their errors.
+    constant: [f32; 2],
+    error: f32,
+    size: f32,
+    lit: bool,
+    certain: bool,
+    /// Whether every view-sample lies on a triangle.
+    complete: bool,
+    known: HashMap<u64, u8>,
+}
+
+const NONE: u16 = u16::MAX;
+
+/// What does not change from cluster to cluster.
+#[derive(Clone, Copy)]
+pub struct World<'a> {
+    /// All triangles, as they came.
+    pub triangles: &'a [Corners],
+    /// All light samples, as they came.
+    pub lights: &'a [[f32; 3]],
+    /// From world to unit lengths.
+    pub scale: f64,
+}
+
+impl World<'_> {
+    /// A point in unit lengths.
+    #[inline(always)]
+    pub fn unit(&self, p: [f32; 3]) -> [f32; 3] {
+        p.map(|x| (f64::from(x) * self.scale) as f32)
+    }
+}
+
+impl OwnPlanes {
+    /// Those of view-samples on `owns`, in order. `light`: corners of the light's box in the cluster's space.
+    pub fn gather(
+        &mut self,
+        world: &World,
+        frame: &Frame,
+        owns: impl Iterator<Item = u32>,
+        light: ([f32; 3], [f32; 3]),
+    ) {
+        self.planes.clear();
+        self.of_view.clear();
+        self.rows.clear();
+        let mut last = (u32::MAX, NONE);
+        for own in owns {
+            if own != last.0 {
+                let known = self.planes.iter().position(|plane| plane.triangle == own);
+                let at = known.or_else(|| {
+                    let corners = world.triangles.get(own as usize)?;
+                    self.planes.push(Plane::new(own, corners, world, frame, light));
+                    Some(self.planes.len() - 1)
+                });
+                last = (own, at.map_or(NONE, |at| at as u16));
+            }
+            self.of_view.push(last.1);
+        }
+        self.complete = !self.of_view.contains(&NONE);
+        self.certain = self.planes.iter().all(|plane| plane.normal != [0.0; 3]);
+        self.lit = self.planes.iter().all(|plane| plane.lit);
+        let sum = self.planes.iter().fold([0.0; 3], |sum: [f32; 3], plane| [0, 1, 2].map(|k| sum[k] + plane.normal[k]));
+        let length = dot(sum, sum).sqrt().max(1e-6);
+        self.mean = sum.map(|x| x / length);
+        (self.spread, self.error, self.size, self.constant) = (0.0, 0.0, 0.0, [f32::MAX, f32::MIN]);
+        for plane in &self.planes {
+            let apart = [0, 1, 2].map(|k| plane.normal[k] - self.mean[k]);
+            self.spread = self.spread.max(apart.iter().fold(0.0, |most: f32, x| most.max(x.abs())) + 1e-6);
+            self.error = self.error.max(plane.error);
+            self.size = self.size.max(plane.size);
+            self.constant = [self.constant[0].min(plane.constant), self.constant[1].max(plane.constant)];
+        }
+    }
+
+    /// What they make of the caster at `place` of `list`, which is triangle `id`.
+    pub fn judge(&mut self, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
+        if self.planes.is_empty() {
+            return Verdict::Plain;
+        }
+        let [a, g, h] = list.caster(place);
+        let corners = [a, [0, 1, 2].map(|k| a[k] + g[k]), [0, 1, 2].map(|k| a[k] + h[k])];
+        let reach = size(a) + size(g) + size(h);
+        if self.certain {
+            let heights = corners.map(|corner| dot(self.mean, corner));
+            let (low, high) = (heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2]));
+            let room = self.spread * reach + self.error * (reach + self.size);
+            let above = high - room + self.constant[0] > 0.0;
+            let below = low + room + self.constant[1] < 0.0;
+            if above && (self.lit || below) {
+                return Verdict::Plain;
+            }
+            if self.lit && self.complete && high + room + self.constant[1] < 0.0 {
+                return Verdict::Never;
+            }
+        }
+        self.judge_each(world, &corners, reach, id)
+    }
+
+    /// The same, plane by plane.
+    fn judge_each(&mut self, world: &World, corners: &[[f32; 3]; 3], reach: f32, id: u32) -> Verdict {
+        let first = self.rows.len();
+        let (mut plain, mut never) = (true, true);
+        for plane in &self.planes {
+            let bits =
+                if plane.triangle == id { MINE } else { plane.corners(world, &mut self.known, corners, reach, id) };
+            self.rows.push(bits);
+            plain &= bits & MINE == 0 && bits & ABOVE != 0 && (plane.lit || bits & BELOW != 0);
+            never &= bits & MINE != 0 || (plane.lit && bits & ABOVE == 0);
+        }
+        // View-samples on no triangle take every caster.
+        never &= self.complete;
+        if plain || never {
+            self.rows.truncate(first);
+            return if plain { Verdict::Plain } else { Verdict::Never };
+        }
+        Verdict::Mixed((first / self.planes.len()) as u32)
+    }
+
+    /// For each of sixteen light samples, a bit for each of sixteen view-samples that lets the caster of `row` through.
+    /// `views` and `lights`: first places; `order`: light samples by place.
+    pub fn allowed(&mut self, world: &World, row: u32, views: usize, order: &[u32]) -> [u16; LANES] {
+        let mut allowed = [0u16; LANES];
+        let first = row as usize * self.planes.len();
+        for lane in 0..LANES {
+            // Filling repeats the last view-sample.
+            let of_view = self.of_view[(views + lane).min(self.of_view.len() - 1)];
+            let bit = 1 << lane;
+            if of_view == NONE {
+                allowed.iter_mut().for_each(|allowed| *allowed |= bit);
+                continue;
+            }
+            let bits = self.rows[first + of_view as usize];
+            let plane = &mut self.planes[of_view as usize];
+            if bits & MINE != 0 {
+                continue;
+            }
+            if plane.lit {
+                if bits & ABOVE != 0 {
+                    allowed.iter_mut().for_each(|allowed| *allowed |= bit);
+                }
+                continue;
+            }
+            let sides = plane.sides(world);
+            for (allowed, light) in allowed.iter_mut().zip(order) {
+                let admits = match sides[*light as usize] {
+                    0 => true,
+                    1 => bits & ABOVE != 0,
+                    _ => bits & BELOW != 0,
+                };
+                *allowed |= if admits { bit } else { 0 };
+            }
+        }
+        allowed
+    }
+}
+
+impl Plane {
+    fn new(triangle: u32, corners: &Corners, world: &World, frame: &Frame, light: ([f32; 3], [f32; 3])) -> Self {
+        let units = corners.map(|p| world.unit(p));
+        let origin = frame.point(units[0]);
+        let [g, h] = [1, 2].map(|k| frame.turn([0, 1, 2].map(|axis| units[k][axis] - units[0][axis])));
+        let normal = cross(g, h);
+        let length = dot(normal, normal).sqrt();
+        let share = size(g) * size(h) / length;
+        let mut plane = Self {
+            triangle,
+            normal: [0.0; 3],
+            constant: 0.0,
+            error: PLANE_ERROR * share,
+            size: size(origin) + size(g) + size(h),
+            up: 1,
+            lit: false,
+            sides: Vec::new(),
+        };
+        if !(share < 1e4 && length > 1e-30) {
+            return plane;
+        }
+        let middle = [0, 1, 2].map(|k| 0.5 * (light.0[k] + light.1[k]));
+        let half = [0, 1, 2].map(|k| 0.5 * (light.1[k] - light.0[k]));
+        let unit = normal.map(|x| x / length);
+        let height = dot(unit, middle) - dot(unit, origin);
+        let turn = if height < 0.0 { -1.0 } else { 1.0 };
+        plane.normal = unit.map(|x| turn * x);
+        plane.constant = -dot(plane.normal, origin);
+        // orient3d is positive below a triangle that turns counter-clockwise seen from above.
+        plane.up = if height < 0.0 { 1 } else { -1 };
+        let spread = unit[0].abs() * half[0] + unit[1].abs() * half[1] + unit[2].abs() * half[2];
+        plane.lit = height.abs() - spread > plane.error * (size(middle) + size(half) + plane.size);
+        plane
+    }
+
+    /// Which sides of the plane the caster has corners on.
+    fn corners(&self, world: &World, known: &mut HashMap<u64, u8>, corners: &[[f32; 3]; 3], reach: f32, id: u32) -> u8 {
+        if self.normal != [0.0; 3] {
+            let heights = corners.map(|corner| dot(self.normal, corner) + self.constant);
+            let room = self.error * (reach + self.size);
+            let (above, below) = (heights.iter().any(|x| *x > room), heights.iter().any(|x| *x < -room));
+            let (not_above, not_below) = (heights.iter().all(|x| *x < -room), heights.iter().all(|x| *x > room));
+            if (above || not_above) && (below || not_below || self.lit) {
+                return if above { ABOVE } else { 0 } | if below { BELOW } else { 0 };
+            }
+        }
+        let key = u64::from(self.triangle) << 32 | u64::from(id);
+        let (up, down) = if let Some(known) = known.get(&key) {
+            (known & ABOVE, known & BELOW)
+        } else {
+            if known.len() >= MOST_KNOWN {
+                known.clear();
+            }
+            let own = &world.triangles[self.triangle as usize];
+            let sides =
+                world.triangles[id as usize].map(|corner| if own.contains(&corner) { 0 } else { side(own, corner) });
+            let bits = sides.iter().fold(0, |bits, side| match side {
+                1 => bits | ABOVE,
+                -1 => bits | BELOW,
+                _ => bits,
+            });
+            known.insert(key, bits);
+            (bits & ABOVE, bits & BELOW)
+        };
+        // What is known is about the plane as the predicate turns it.
+        if self.up > 0 { up | down } else { (up << 1) | (down >> 1) }
+    }
+
+    /// 1 above, -1 below, 0 in the plane, for every light sample.
+    fn sides(&mut self, world: &World) -> &[i8] {
+        if self.sides.is_empty() {
+            let own = &world.triangles[self.triangle as usize];
+            self.sides.extend(world.lights.iter().map(|light| (side(own, *light) * self.up) as i8));
+        }
+        &self.sides
+    }
+}

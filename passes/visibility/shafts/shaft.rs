@@ -1,0 +1,238 @@
+//! A shaft: all segments from a group of view-samples to a group of light samples, and what sixteen casters do to it at once.
+//!
+//! For an edge from a along e, f(v, s) = det(a - v, e, s - v) says on which side of the edge the segment from v to s passes. It is
+//! affine in v and in s. With c and l the middles of both groups, A = a - c, L = l - c and m = A x e, its value in the middle is
+//! L . m, its change with s is (s - l) . m, with v it is (v - c) . (L x e - m), and the product of both changes it by
+//! e . ((v - c) x (s - l)). Over a slanted box and a plain one that gives f its bounds.
+//!
+//! A caster with normal N blocks a segment from below (N . (v - a) < 0) when all three f >= 0 and N . (s - a) >= 0, and from above with
+//! all signs turned: the conditions of [`crate::shared::predicate`].
+//!
+//! Bounds. A stored coordinate x of the cluster's space errs by at most 5 u of the sum of its point's absolute coordinates, u =
+//! 2^-24; an edge by 6 u of its own. Let E bound the edges of a triangle, R its corners and the view-samples, D the light samples
+//! and the view-samples. Then f errs by less than 32 u E R D through its arguments, and by less than 40 u E R D through at most
+//! thirty roundings of partial sums none of which is above E R D; N . (x - a) likewise by 48 u of |g| |h| (R + D). Both are
+//! kept with room.
+
+use super::LANES;
+use super::candidates::Candidates;
+use super::groups::{LightBox, Slanted};
+use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16};
+
+/// Bound on the error of f, as a share of E R D.
+pub const EDGE_ERROR: f32 = 96.0 * 5.960_464_5e-8;
+/// Bound on the error of N . (x - a), as a share of |g| |h| (R + D).
+pub const PLANE_ERROR: f32 = 96.0 * 5.960_464_5e-8;
+/// Bound on the error of a corner, and of its place beside a plane of the shaft, as a share of R.
+pub const CORNER_ERROR: f32 = 16.0 * 5.960_464_5e-8;
+/// What products of tiny numbers may lose.
+pub const TINY: f32 = 1e-36;
+
+/// A plane along the shaft: beyond it is `x[axis] - slope z > limit`, or `<` for the other side.
+#[derive(Clone, Copy, Debug)]
+pub struct Side {
+    /// k.
+    pub slope: f32,
+    /// Where it begins.
+    pub limit: f32,
+}
+
+/// The shaft.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaft {
+    views: Slanted,
+    /// From the middle of the view-samples to that of the light samples.
+    along: [f32; 3],
+    light_half: [f32; 3],
+    /// Bounds on the coordinates of (v - c) x (s - l).
+    cross: [f32; 3],
+    /// Upper sides of x and y.
+    pub upper: [Side; 2],
+    /// Lower sides of x and y.
+    pub lower: [Side; 2],
+    /// Smallest and largest z.
+    pub depth: [f32; 2],
+}
+
+/// What sixteen casters do to a shaft, a bit each.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Answer {
+    /// May block some segment and may leave some free.
+    pub open: u16,
+    /// Blocks every segment.
+    pub covers: u16,
+    /// Each edge: may be crossed by some segment.
+    pub edge: [u16; 3],
+    /// All view-samples are below for certain, and all light samples above.
+    pub from_below: u16,
+    /// The other way about.
+    pub from_above: u16,
+    /// Bounds are wider through the view-samples than through the light samples.
+    pub views_wider: u16,
+}
+
+type Vector<S> = [f32x16<S>; 3];
+
+#[inline(always)]
+pub(super) fn cross_scalar<S: Simd>(a: [f32; 3], b: Vector<S>) -> Vector<S> {
+    [b[2] * a[1] - b[1] * a[2], b[0] * a[2] - b[2] * a[0], b[1] * a[0] - b[0] * a[1]]
+}
+
+#[inline(always)]
+pub(super) fn cross<S: Simd>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+    [a[1].mul_sub(b[2], a[2] * b[1]), a[2].mul_sub(b[0], a[0] * b[2]), a[0].mul_sub(b[1], a[1] * b[0])]
+}
+
+#[inline(always)]
+pub(super) fn dot_scalar<S: Simd>(a: [f32; 3], b: Vector<S>) -> f32x16<S> {
+    b[0].mul_add(a[0], b[1].mul_add(a[1], b[2] * a[2]))
+}
+
+#[inline(always)]
+fn bits<S: Simd>(mask: mask32x16<S>) -> u16 {
+    mask.to_bitmask() as u16
+}
+
+impl Shaft {
+    /// Between `views` and `light`.
+    pub fn new(views: Slanted, light: LightBox) -> Self {
+        let middle = [0, 1, 2].map(|k| 0.5 * (light.low[k] + light.high[k]));
+        let light_half = [0, 1, 2].map(|k| (0.5 * (light.high[k] - light.low[k])) * (1.0 + 1e-6));
+        let [x, y] = views.half;
+        let along_z = views.slope[0].abs() * x + views.slope[1].abs() * y + views.rest;
+        let [ux, uy, uz] = light_half;
+        let upper = [0, 1].map(|axis| {
+            side(
+                [views.high[axis], light.high[axis]],
+                [views.low[2], light.low[2]],
+                [views.high[2], light.high[2]],
+                1.0,
+            )
+        });
+        let lower = [0, 1].map(|axis| {
+            side([views.low[axis], light.low[axis]], [views.low[2], light.low[2]], [views.high[2], light.high[2]], -1.0)
+        });
+        Self {
+            along: [0, 1, 2].map(|k| middle[k] - views.centre[k]),
+            light_half,
+            cross: [along_z * uy + y * uz, along_z * ux + x * uz, x * uy + y * ux],
+            upper,
+            lower,
+            depth: [views.low[2].min(light.low[2]), views.high[2].max(light.high[2])],
+            views,
+        }
+    }
+
+    /// How far coordinates of `normal . (v - c)` can be from its middle.
+    #[inline(always)]
+    fn views_spread<S: Simd>(&self, normal: Vector<S>) -> f32x16<S> {
+        let [p, q] = self.views.slope;
+        let x = normal[2].mul_add(p, normal[0]).abs();
+        let y = normal[2].mul_add(q, normal[1]).abs();
+        x.mul_add(self.views.half[0], y.mul_add(self.views.half[1], normal[2].abs() * self.views.rest))
+    }
+
+    #[inline(always)]
+    fn light_spread<S: Simd>(&self, normal: Vector<S>) -> f32x16<S> {
+        dot_scalar(self.light_half, normal.map(|x| x.abs()))
+    }
+
+    /// Casters at `place..place + 16` that are not wholly beside the shaft.
+    #[inline(always)]
+    fn beside<S: Simd>(&self, corners: [Vector<S>; 3], far: f32x16<S>) -> u16 {
+        let [a, b, c] = corners;
+        let (low, high) = (a[2].min(b[2]).min(c[2]), a[2].max(b[2]).max(c[2]));
+        let mut beside = bits((low - far).simd_gt(self.depth[1])) | bits((high + far).simd_lt(self.depth[0]));
+        for axis in 0..2 {
+            let Side { slope, limit } = self.upper[axis];
+            let at = |p: Vector<S>| p[2].mul_add(-slope, p[axis]);
+            let nearest = at(a).min(at(b)).min(at(c));
+            beside |= bits(far.mul_add(-1.0 - slope.abs(), nearest).simd_gt(limit));
+            let Side { slope, limit } = self.lower[axis];
+            let at = |p: Vector<S>| p[2].mul_add(-slope, p[axis]);
+            let nearest = at(a).max(at(b)).max(at(c));
+            beside |= bits(far.mul_add(1.0 + slope.abs(), nearest).simd_lt(limit));
+        }
+        beside
+    }
+
+    /// What the casters at `place..place + 16` do; lanes of `lanes` only.
+    #[inline(always)]
+    pub fn meet<S: Simd>(&self, simd: S, list: &Candidates, place: usize, lanes: u16) -> Answer {
+        let row = |k: usize| f32x16::from_slice(simd, &list.rows[k][place..place + LANES]);
+        let a = [row(0), row(1), row(2)];
+        let g = [row(3), row(4), row(5)];
+        let h = [row(6), row(7), row(8)];
+        let (edge_error, plane_error, far) = (row(9), row(10), row(11));
+        let b = [0, 1, 2].map(|k| a[k] + g[k]);
+        let c = [0, 1, 2].map(|k| a[k] + h[k]);
+        let lanes = lanes & !self.beside([a, b, c], far);
+        if lanes == 0 {
+            return Answer::default();
+        }
+        let centre = self.views.centre;
+        let from = |p: Vector<S>| [0, 1, 2].map(|k| p[k] - centre[k]);
+        let (a, b) = (from(a), from(b));
+        // The caster's plane against both groups.
+        let normal = cross(g, h);
+        let height = -(normal[0].mul_add(a[0], normal[1].mul_add(a[1], normal[2] * a[2])));
+        let light_height = dot_scalar(self.along, normal) + height;
+        let spread = self.views_spread(normal) + plane_error;
+        let light_spread = self.light_spread(normal) + plane_error;
+        let below = bits((height + spread).simd_lt(0.0));
+        let above = bits((height - spread).simd_gt(0.0));
+        let light_below = bits((light_height + light_spread).simd_lt(0.0));
+        let light_above = bits((light_height - light_spread).simd_gt(0.0));
+        // Its edges.
+        let (mut none_negative, mut none_positive) = (u16::MAX, u16::MAX);
+        let (mut all_positive, mut all_negative) = (u16::MAX, u16::MAX);
+        let mut answer = Answer::default();
+        let (mut through_views, mut through_light) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, 0.0));
+        let minus_h = h.map(|x| -x);
+        let between = [0, 1, 2].map(|k| h[k] - g[k]);
+        for (k, (base, edge)) in [(a, g), (b, between), (a, minus_h)].into_iter().enumerate() {
+            let m = cross(base, edge);
+            let middle = dot_scalar(self.along, m);
+            let turned = cross_scalar(self.along, edge);
+            let views = self.views_spread([0, 1, 2].map(|k| turned[k] - m[k]));
+            let light = self.light_spread(m);
+            let rest = dot_scalar(self.cross, edge.map(|x| x.abs())) + edge_error;
+            let spread = views + light + rest;
+            let positive = bits((middle - spread).simd_gt(0.0));
+            let negative = bits((middle + spread).simd_lt(0.0));
+            none_negative &= !negative;
+            none_positive &= !positive;
+            all_positive &= positive;
+            all_negative &= negative;
+            answer.edge[k] = !(positive | negative);
+            through_views = through_views + views;
+            through_light = through_light + light;
+        }
+        let misses = (below & light_below)
+            | (above & light_above)
+            | (!none_negative & !none_positive)
+            | (below & !none_negative)
+            | (above & !none_positive);
+        answer.from_below = below & light_above & lanes;
+        answer.from_above = above & light_below & lanes;
+        answer.covers = (answer.from_below & all_positive) | (answer.from_above & all_negative);
+        answer.open = lanes & !misses & !answer.covers;
+        answer.views_wider = bits(through_views.simd_gt(through_light)) & answer.open;
+        answer
+    }
+}
+
+/// The side that both boxes touch; `outward` is 1 for upper sides. `ends`: of the view-samples and of the light along the axis.
+fn side(ends: [f32; 2], low_z: [f32; 2], high_z: [f32; 2], outward: f32) -> Side {
+    let widens = (ends[1] - ends[0]) * outward > 0.0;
+    let z = if widens { low_z } else { high_z };
+    let outer = if widens { ends[1] } else { ends[0] };
+    let rise = z[1] - z[0];
+    if rise <= 1e-6 * (z[0].abs() + z[1].abs()) {
+        return Side { slope: 0.0, limit: outer };
+    }
+    let slope = (ends[1] - ends[0]) / rise;
+    // Rounding of the slope and of the products moves the plane by a few steps.
+    let room = 8.0 * f32::EPSILON * (ends[0].abs() + ends[1].abs() + slope.abs() * (z[0].abs() + z[1].abs()));
+    Side { slope, limit: ends[0] - slope * z[0] + outward * room }
+}
