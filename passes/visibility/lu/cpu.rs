@@ -21,7 +21,7 @@ impl PairTest for LookUp<'_> {
     }
 
     #[inline(always)]
-    fn bits<S: Simd>(&self, _: S, _: &mut Pair, bins: &Bins, word: usize, _: u32) -> u32 {
+    fn bits<S: Simd>(&self, _: S, _: &mut Pair, bins: &mut Bins, word: usize, _: u32) -> u32 {
         if bins.is_outside {
             return 0;
         }
@@ -34,7 +34,8 @@ impl PairTest for LookUp<'_> {
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let count = cx.input("light_samples").dim(0);
     let table = Table::new(FORM, cx.optional("lu"), cx.optional("lu_layout"), count)?;
-    let (mask, counts) = Soft::new(cx).masks(&LookUp(table), cx.progress());
+    let (mask, counts) =
+        Soft::new(cx, LightBox::new(cx.input("light_samples").as_vec3())).masks(&LookUp(table), cx.progress());
     cx.put("mask", mask);
     cx.count("pairs", counts.pairs);
     cx.count("cut_pairs", counts.cut_pairs);
