@@ -56,7 +56,7 @@ visibility/fused cw caster_offset,caster_entries -
 visibility/fused_draw w caster_offset,caster_entries -
 visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries -
 visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries contact_ulps
-visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries -
+visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries patches
 light_depth/first_surface cw - size,bias
 shadow_lookup/compare cw - -
 shadow_lookup/pcf cw - taps
@@ -71,6 +71,7 @@ const SPECS: &[ParamSpec] = &[
     spec("contact_ulps", Range::F32 { min: 0.0, max: 1024.0, default: 1.0 }),
     spec("margin", Range::F32 { min: 0.0, max: 1.0, default: 0.25 }),
     spec("bias", Range::Word { words: &["constant", "slope"], default: "constant" }),
+    spec("patches", Range::Word { words: &["auto", "always", "off"], default: "auto" }),
     spec("taps", Range::U32 { min: 1, max: 15, default: 3 }),
 ];
 

@@ -36,4 +36,5 @@ pub static STAGE: Stage = Stage {
 };
 
 /// Its passes; the first is the one used when a graph names none.
-pub const PASSES: &[&Pass] = &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS, &shafts::PASS];
+pub const PASSES: &[&Pass] =
+    &[&planes::PASS, &fused::PASS, &fused_draw::PASS, &exact::PASS, &bvh_rays::PASS, &shafts::PASS];

@@ -58,7 +58,7 @@ pub struct Blocks {
     pub index: Vec<u32>,
     /// Points that are not filling.
     pub count: usize,
-    /// Largest sum of absolute coordinates.
+    /// Largest length.
     pub reach: f32,
     points: Vec<Point>,
 }
@@ -156,7 +156,8 @@ impl Blocks {
         self.points.clear();
         self.points.extend(points.map(|(at, index)| Point { at, index }));
         self.count = self.points.len();
-        self.reach = self.points.iter().fold(0.0, |reach: f32, point| reach.max(size(point.at)));
+        self.reach =
+            self.points.iter().fold(0.0, |reach: f32, point| reach.max(dot(point.at, point.at).sqrt())) * (1.0 + 1e-6);
         let blocks = self.count.div_ceil(LANES);
         divide(&mut self.points, blocks);
         self.index.clear();
@@ -222,8 +223,13 @@ impl Blocks {
         }
         let n = x.len() as f32;
         let [mx, my, mz] = [sums[5] / n, sums[6] / n, sums[7] / n];
-        let [xx, xy, yy, xz, yz] =
-            [sums[0] - n * mx * mx, sums[1] - n * mx * my, sums[2] - n * my * my, sums[3] - n * mx * mz, sums[4] - n * my * mz];
+        let [xx, xy, yy, xz, yz] = [
+            sums[0] - n * mx * mx,
+            sums[1] - n * mx * my,
+            sums[2] - n * my * my,
+            sums[3] - n * mx * mz,
+            sums[4] - n * my * mz,
+        ];
         let whole = xx * yy - xy * xy;
         let mut slope = if whole > 1e-3 * xx * yy {
             [(xz * yy - yz * xy) / whole, (yz * xx - xz * xy) / whole]
@@ -268,7 +274,13 @@ fn divide(points: &mut [Point], blocks: usize) {
         }
     }
     let extent = [0, 1, 2].map(|k| (ends.1[k] - ends.0[k]) * if k == 2 { DEPTH_WEIGHT } else { 1.0 });
-    let axis = if extent[0] >= extent[1] && extent[0] >= extent[2] { 0 } else if extent[1] >= extent[2] { 1 } else { 2 };
+    let axis = if extent[0] >= extent[1] && extent[0] >= extent[2] {
+        0
+    } else if extent[1] >= extent[2] {
+        1
+    } else {
+        2
+    };
     let half = blocks.div_ceil(2);
     let at = half * LANES;
     points.select_nth_unstable_by(at, |a, b| a.at[axis].total_cmp(&b.at[axis]));

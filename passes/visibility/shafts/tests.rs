@@ -1,4 +1,5 @@
 use super::cpu::{Receivers, answer};
+use super::patches::Choice;
 use crate::shared::predicate::{Corners, blocks};
 use fearless_simd::Level;
 use shadowgraph_core::shared::{BACKGROUND, FACING_AWAY, KEPT, NO_TRIANGLE};
@@ -76,7 +77,13 @@ fn on(triangle: &Corners, [mut a, mut b]: [f32; 2]) -> [f32; 3] {
 }
 
 /// A scene compared with the control on every instruction set; blocked bits of view-samples that are kept.
-fn compare(what: &str, triangles: &[Corners], light_samples: &[[f32; 3]], rows: &[([f32; 3], u32)], width: usize) -> u32 {
+fn compare(
+    what: &str,
+    triangles: &[Corners],
+    light_samples: &[[f32; 3]],
+    rows: &[([f32; 3], u32)],
+    width: usize,
+) -> u32 {
     let position: Vec<_> = rows.iter().map(|row| row.0).collect();
     let triangle: Vec<_> = rows.iter().map(|row| row.1).collect();
     let caster_state: Vec<u32> = (0..triangles.len()).map(|id| u32::from(id % 13 != 5)).collect();
@@ -94,12 +101,18 @@ fn compare(what: &str, triangles: &[Corners], light_samples: &[[f32; 3]], rows: 
         triangle: &triangle,
         sample_state: &sample_state,
         image: [width, rows.len().div_ceil(width.max(1))],
+        patches: Choice::Auto,
     };
     let expected = brute_force(scene);
-    for level in [Level::new(), Level::baseline()] {
-        let (found, _) = answer(scene, level, &|_, _| {});
+    for (level, patches) in [
+        (Level::new(), Choice::Always),
+        (Level::new(), Choice::Off),
+        (Level::new(), Choice::Auto),
+        (Level::baseline(), Choice::Always),
+    ] {
+        let (found, _) = answer(Receivers { patches, ..scene }, level, &|_, _| {});
         let wrong = expected.iter().zip(&found).map(|(a, b)| (a ^ b).count_ones()).sum::<u32>();
-        assert_eq!(wrong, 0, "{what}, {level:?}: {} bits in all", expected.len() * 32);
+        assert_eq!(wrong, 0, "{what}, {level:?}, patches {patches:?}: {} bits in all", expected.len() * 32);
     }
     let words = light_samples.len().div_ceil(32);
     let kept = expected.chunks(words).zip(&sample_state).filter(|(_, state)| **state == KEPT);
@@ -121,9 +134,14 @@ const FLOOR: [Corners; 2] = [
 
 #[test]
 fn a_floor_under_soup_agrees_for_every_number_of_light_samples() {
-    for (seed, count, size, radius) in
-        [(1, 40, 0.5, 0.3), (2, 300, 0.1, 0.5), (3, 12, 1.5, 0.1), (4, 900, 0.05, 0.8), (5, 60, 0.4, 2.0), (6, 8, 3.0, 1.0)]
-    {
+    for (seed, count, size, radius) in [
+        (1, 40, 0.5, 0.3),
+        (2, 300, 0.1, 0.5),
+        (3, 12, 1.5, 0.1),
+        (4, 900, 0.05, 0.8),
+        (5, 60, 0.4, 2.0),
+        (6, 8, 3.0, 1.0),
+    ] {
         for lights in [1, 5, 33, 256] {
             let mut random = Random(seed);
             let mut triangles = random.soup(count, size);
@@ -307,6 +325,7 @@ fn nothing_that_casts_nothing_kept_and_no_light_sample() {
         triangle: &[3, 3],
         sample_state: &[KEPT, KEPT],
         image: [2, 1],
+        patches: Choice::Auto,
     };
     let masks = |scene: Receivers| answer(scene, Level::new(), &|_, _| {}).0;
     assert_eq!(masks(scene), [0, 0]);
@@ -333,6 +352,7 @@ fn many_equal_triangles_build_in_time_and_agree() {
         triangle: &[last, last],
         sample_state: &[KEPT, KEPT],
         image: [2, 1],
+        patches: Choice::Auto,
     };
     assert_eq!(answer(scene, Level::new(), &|_, _| {}).0, [1, 0]);
 }
