@@ -39,8 +39,8 @@ impl Candidates {
     pub fn push<S: Simd>(&mut self, simd: S, rows: [f32x16<S>; ROWS], slot: u32x16<S>, flags: u32x16<S>, keep: u16) {
         let mask = mask32x16::from_bitmask(simd, u64::from(keep));
         let at = self.len..self.len + LANES;
-        for k in 0..ROWS {
-            rows[k].compress(mask).store_slice(&mut self.rows[k][at.clone()]);
+        for (row, to) in rows.iter().zip(&mut self.rows) {
+            row.compress(mask).store_slice(&mut to[at.clone()]);
         }
         slot.compress(mask).store_slice(&mut self.slot[at.clone()]);
         flags.compress(mask).store_slice(&mut self.flags[at]);
@@ -51,8 +51,8 @@ impl Candidates {
     #[inline(always)]
     pub fn push_from<S: Simd>(&mut self, simd: S, place: usize, keep: u16, flags: u32x16<S>) {
         let mut rows = [f32x16::splat(simd, 0.0); ROWS];
-        for k in 0..ROWS {
-            rows[k] = load(simd, &self.rows[k], place);
+        for (row, from) in rows.iter_mut().zip(&self.rows) {
+            *row = load(simd, from, place);
         }
         let slot = u32x16::from_slice(simd, &self.slot[place..place + LANES]);
         self.push(simd, rows, slot, flags, keep);

@@ -94,7 +94,7 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
                     });
                 }
                 let done = done.fetch_add(1, Relaxed) + 1;
-                if done % step == 0 {
+                if done.is_multiple_of(step) {
                     progress(done, tiles as u64);
                 }
                 worker.counts

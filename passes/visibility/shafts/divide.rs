@@ -144,10 +144,9 @@ impl Worker {
                 let [x, y, z] = &self.views.at;
                 let points = [&x[views..views + LANES], &y[views..views + LANES], &z[views..views + LANES]];
                 let mut open = open_lanes(simd, points, &self.boxes[lights.node], &self.pair(place));
-                if open != 0 && flags & MIXED != 0 {
-                    if let Verdict::Mixed(row) = self.slots[self.list.slot[place] as usize].verdict {
-                        open &= self.own.possible(row, views);
-                    }
+                let verdict = self.slots[self.list.slot[place] as usize].verdict;
+                if let (Verdict::Mixed(row), true) = (verdict, flags & MIXED != 0) {
+                    open &= self.own.possible(row, views);
                 }
                 if open == 0 {
                     continue;
@@ -187,16 +186,16 @@ impl Worker {
             let slot = self.slots[self.list.slot[place] as usize];
             if let (Verdict::Mixed(row), true) = (slot.verdict, flags & MIXED != 0) {
                 let allowed = self.own.allowed(&scene.world, row, views, &self.lights.index[lights..lights + LANES]);
-                for j in 0..LANES {
-                    found.sure[j] &= allowed[j];
-                    found.may[j] &= allowed[j];
+                for (j, allowed) in allowed.iter().enumerate() {
+                    found.sure[j] &= allowed;
+                    found.may[j] &= allowed;
                 }
             }
             let (mut full, mut doubt) = (u16::MAX, 0);
-            for j in 0..LANES {
-                blocked[j] |= found.sure[j];
-                found.may[j] &= !blocked[j];
-                full &= blocked[j];
+            for (j, blocked) in blocked.iter_mut().enumerate() {
+                *blocked |= found.sure[j];
+                found.may[j] &= !*blocked;
+                full &= *blocked;
                 doubt |= found.may[j];
             }
             if full == u16::MAX {

@@ -152,8 +152,8 @@ fn sides<S: Simd, const N: usize>(simd: S, planes: [[f32x16<S>; 4]; N], lights: 
     let (x, y, z) = (&lights[0][..LANES], &lights[1][..LANES], &lights[2][..LANES]);
     for j in 0..LANES {
         let mut lowest = height(&planes[0], x[j], y[j], z[j]);
-        for k in 1..N {
-            lowest = lowest.min(height(&planes[k], x[j], y[j], z[j]));
+        for plane in &planes[1..] {
+            lowest = lowest.min(height(plane, x[j], y[j], z[j]));
         }
         found.sure[j] = lowest.simd_gt(inside).to_bitmask() as u16;
         found.may[j] = lowest.simd_ge(outside).to_bitmask() as u16;

@@ -254,8 +254,8 @@ impl Shaft {
             all_positive &= positive;
             all_negative &= negative;
             answer.edge[k] = !(positive | negative);
-            through_views = through_views + views;
-            through_light = through_light + light;
+            through_views += views;
+            through_light += light;
         }
         let misses = (below & light_below)
             | (above & light_above)

@@ -176,7 +176,7 @@ fn view_samples_anywhere_in_soup_agree() {
             .map(|_| {
                 let own = random.below(triangles.len());
                 let at = [random.next(), random.next()];
-                (on(&triangles[own], at), if own % 11 == 0 { NO_TRIANGLE } else { own as u32 })
+                (on(&triangles[own], at), if own.is_multiple_of(11) { NO_TRIANGLE } else { own as u32 })
             })
             .collect();
         assert!(compare("soup", &triangles, &light_samples, &rows, 25) > 1_000);
@@ -265,7 +265,10 @@ fn a_fine_sphere_over_itself_and_a_floor_agrees() {
     // Neighbours of own triangles everywhere, convex and concave, and an umbra that no single triangle makes.
     let (rings, turns) = (24, 48);
     let corner = |ring: usize, turn: usize| {
-        let (a, b) = (ring as f32 / rings as f32 * 3.141_592_7, (turn % turns) as f32 / turns as f32 * 6.283_185_5);
+        let (a, b) = (
+            ring as f32 / rings as f32 * std::f32::consts::PI,
+            (turn % turns) as f32 / turns as f32 * std::f32::consts::TAU,
+        );
         let r = 1.0 + 0.1 * (5.0 * b).sin() * (3.0 * a).sin();
         [r * a.sin() * b.cos(), r * a.cos(), r * a.sin() * b.sin()]
     };
