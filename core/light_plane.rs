@@ -1,14 +1,15 @@
 //! The plane that light samples lie in, if they lie in one.
 //!
-//! The plane goes through the first sample, the one farthest from it and the one farthest from the line through both. A sample lies in it
-//! within a millionth of the light's extent and the rounding of its coordinates: a light that is small beside its distance from the
-//! origin has no flatter points.
+//! The plane goes through the first sample, the one farthest from it and the one farthest from the line through both. A sample
+//! lies in it within a millionth of the light's extent and the rounding of its coordinates: a light that is small beside its
+//! distance from the origin has no flatter points.
 
 use glam::{DVec3, Vec3};
 
 /// How far off the plane a light sample may lie, of the light's extent.
 pub const SHARE: f32 = 1e-6;
-/// And of the largest coordinate: each is off by half a unit in the last place, in the sample itself and in the three that make the plane.
+/// And of the largest coordinate: each is off by half a unit in the last place, in the sample itself and in the three that make
+/// the plane.
 pub const ROUNDING: f32 = 4.0 * f32::EPSILON;
 
 /// A plane through a light.

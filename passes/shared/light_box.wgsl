@@ -2,7 +2,7 @@
 // Joined after the prelude.
 @group(0) @binding(0) var<uniform> count: u32;
 @group(0) @binding(1) var<storage, read> light_samples: array<f32>;
-// Middle; half extents; then xxxx, yyyy, zzzz of every four light samples, up to a multiple of 128, past the last that one again; then
+// Middle and largest distance from it; half extents and their sum; then xxxx, yyyy, zzzz of every four light samples, up to a multiple of 128, past the last that one again; then
 // the light samples as they are.
 @group(0) @binding(2) var<storage, read_write> light: array<vec4<f32>>;
 
@@ -32,8 +32,20 @@ fn light_box(@builtin(local_invocation_index) local: u32) {
     }
     let middle = 0.5 * low + 0.5 * high;
     let half = max(high - middle, middle - low);
+    var far = 0.0;
+    for (var index = local; index < count; index += GROUP) {
+        far = max(far, length(light_sample(index) - middle));
+    }
+    // Nobody reads the lows any more.
+    workgroupBarrier();
+    lows[local] = vec3<f32>(far);
+    // Everyone's distance is in.
+    workgroupBarrier();
+    for (var other = 0u; other < GROUP; other++) {
+        far = max(far, lows[other].x);
+    }
     if local == 0u {
-        light[0] = vec4<f32>(middle, 0.0);
+        light[0] = vec4<f32>(middle, far);
         light[1] = vec4<f32>(half, half.x + half.y + half.z);
     }
     let has_extent = half > vec3<f32>(0.0);

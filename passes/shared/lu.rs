@@ -1,15 +1,15 @@
 //! Look-up tables from a plane to light samples: which bin a plane falls in, and what the words of a layout say.
 //!
-//! A plane is value(s) = n . s + d over offsets s from the middle of the light; a bit is set where the value is not below zero. With R
-//! the largest |s|, its coordinates are
+//! A plane is value(s) = n . s + d over offsets s from the middle of the light; a bit is set where the value is not below zero.
+//! With R the largest |s|, its coordinates are
 //!
 //! - theta = atan2(sqrt(nx^2 + ny^2), nz) in [0, pi], phi = atan2(ny, nx) in [-pi, pi] and t = d / (|n| R) in [-1, 1]; or
 //! - for a light in the plane of axes X and Y, at N . s = h along its normal N, phi = atan2(n.Y, n.X) and
 //!   t = (d + (n.N) h) / (|(n.X, n.Y)| R). The middle of a tilted light's box is off its plane by h.
 //!
-//! `size` bins of equal width along each, an even number: the opposite plane falls in the mirrored bin (theta and t from the other end,
-//! phi half a turn on), whose bits are the complement. Bins are counted along theta, phi, t, the last fastest; t past -1 or 1 takes no
-//! bin, for all light samples are on one side.
+//! `size` bins of equal width along each, an even number: the opposite plane falls in the mirrored bin (theta and t from the
+//! other end, phi half a turn on), whose bits are the complement. Bins are counted along theta, phi, t, the last fastest; t past
+//! -1 or 1 takes no bin, for all light samples are on one side.
 //!
 //! [`angle`] takes the place of atan2 on both backends and errs by less than [`ANGLE_ERROR`].
 
@@ -30,8 +30,8 @@ const PAST_END: f64 = 1e-4;
 /// Largest table the CPU functions make.
 pub const MOST_CPU_BYTES: u64 = 1 << 31;
 
-/// What `lu_layout` says. Words: middle xyz, R, axis X xyz, 0, axis Y xyz, 0, normal N xyz, h; all from the axes on are zero but for
-/// planar lights.
+/// What `lu_layout` says. Words: middle xyz, R, axis X xyz, 0, axis Y xyz, 0, normal N xyz, h; all from the axes on are zero but
+/// for planar lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
     /// Middle of the light's box, world space.

@@ -1,6 +1,6 @@
-// The layout of a look-up table: middle of the light's box and largest distance from it, and for a planar light its axes and how far its
-// plane is from the middle. One workgroup; the largest of many is found twice over: each invocation its own share's, then all of them
-// the same. The plane is that of light_plane.rs. Joined after the prelude.
+// The layout of a look-up table: middle of the light's box and largest distance from it, and for a planar light its axes and how
+// far its plane is from the middle. One workgroup; the largest of many is found twice over: each invocation its own share's, then
+// all of them the same. The plane is that of light_plane.rs. Joined after the prelude.
 struct Numbers {
     count: u32,
     // 1: the light is to be planar.

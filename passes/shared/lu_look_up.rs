@@ -26,7 +26,7 @@ impl<F: Fn(&Planes, &Layout, usize) -> Bins + Sync> PairTest for LookUp<'_, F> {
     }
 
     #[inline(always)]
-    fn bits<S: Simd>(&self, _: S, _: &mut Pair, bins: &Bins, word: usize, _: u32) -> u32 {
+    fn bits<S: Simd>(&self, _: S, _: &mut Pair, bins: &mut Bins, word: usize, _: u32) -> u32 {
         if bins.is_outside {
             return 0;
         }
@@ -46,7 +46,8 @@ pub fn look_up(
 ) -> Result<(), Problem> {
     let count = cx.input("light_samples").dim(0);
     let table = Table::new(form, cx.optional("lu"), cx.optional("lu_layout"), count)?;
-    let (mask, counts) = Soft::new(cx).masks(&LookUp { table, locate }, cx.progress());
+    let light = LightBox::new(cx.input("light_samples").as_vec3());
+    let (mask, counts) = Soft::new(cx, light).masks(&LookUp { table, locate }, cx.progress());
     cx.put("mask", mask);
     cx.count("pairs", counts.pairs);
     cx.count("cut_pairs", counts.cut_pairs);

@@ -23,7 +23,7 @@ pub trait PairTest: Sync {
     /// Prepares the planes of a pair.
     fn ready(&self, planes: &Planes, light: &LightBox) -> Self::Ready;
     /// The light samples of mask word `word` that the caster hides, among `open`.
-    fn bits<S: Simd>(&self, simd: S, pair: &mut Pair, ready: &Self::Ready, word: usize, open: u32) -> u32;
+    fn bits<S: Simd>(&self, simd: S, pair: &mut Pair, ready: &mut Self::Ready, word: usize, open: u32) -> u32;
 }
 
 /// One (view-sample, caster).
@@ -101,7 +101,8 @@ impl Counts {
 
 impl<'a> Soft<'a> {
     /// From the ports of stage `visibility`.
-    pub fn new(cx: &CpuCx<'a>) -> Self {
+    /// `light` holds the light samples in the order in which the pass answers.
+    pub fn new(cx: &CpuCx<'a>, light: LightBox<'a>) -> Self {
         let listed = cx.input("list_offset").as_u32().last().copied().unwrap_or(0) as usize;
         Self {
             triangles: bytemuck::cast_slice(cx.input("triangles").as_f32()),
@@ -113,7 +114,7 @@ impl<'a> Soft<'a> {
             listed: &cx.input("list_entries").as_u32()[..listed],
             caster_offset: cx.input("caster_offset").as_u32(),
             caster_entries: cx.input("caster_entries").as_u32(),
-            light: LightBox::new(cx.input("light_samples").as_vec3()),
+            light,
         }
     }
 
@@ -168,6 +169,8 @@ impl<'a> Soft<'a> {
 struct Walk<'a> {
     soft: &'a Soft<'a>,
     mask: Vec<u32>,
+    /// The mask in the order of the light samples.
+    restored: Vec<u32>,
     own: OwnSides,
     counts: Counts,
 }
@@ -241,7 +244,7 @@ impl<'a> Walk<'a> {
     fn new(soft: &'a Soft<'a>) -> Self {
         let none = vec![0; soft.light.words()];
         let own = OwnSides { own: NO_TRIANGLE, whole: 0, plus: none.clone(), minus: none.clone() };
-        Self { soft, mask: none, own, counts: Counts::default() }
+        Self { soft, mask: none.clone(), restored: none, own, counts: Counts::default() }
     }
 
     /// The view-samples `rows` against their casters.
@@ -263,7 +266,9 @@ impl<'a> Walk<'a> {
                     break;
                 }
             }
-            for (word, mask) in self.mask.iter().enumerate() {
+            self.restored.fill(0);
+            self.soft.light.restore(&self.mask, &mut self.restored);
+            for (word, mask) in self.restored.iter().enumerate() {
                 // Each view-sample is listed once, so no two threads meet here.
                 masks[row * words + word].store(*mask, Relaxed);
             }
@@ -286,7 +291,7 @@ impl<'a> Walk<'a> {
             Hidden::Within(planes) => Some(planes),
         };
         self.counts.cut_pairs += u64::from(planes.is_some());
-        let ready = planes.as_ref().map(|planes| test.ready(planes, light));
+        let mut ready = planes.as_ref().map(|planes| test.ready(planes, light));
         let mut pair = Pair { caster: corners, position: soft.position[row], light, exact: 0 };
         let (mut on, mut full) = (None, true);
         for word in 0..self.mask.len() {
@@ -294,7 +299,7 @@ impl<'a> Walk<'a> {
             if open == 0 {
                 continue;
             }
-            let mut bits = match &ready {
+            let mut bits = match &mut ready {
                 Some(ready) => test.bits(simd, &mut pair, ready, word, open) & open,
                 None => open,
             };

@@ -49,7 +49,7 @@ struct Found {
 }
 
 fn the_light() -> Light {
-    return Light(light_words[0].xyz, light_words[1].xyz, light_words[1].w);
+    return Light(light_words[0].xyz, light_words[1].xyz, light_words[1].w, light_words[0].w);
 }
 
 fn place_of(sample: u32) -> vec3<f32> {

@@ -7,6 +7,13 @@ struct Light {
     half: vec3<f32>,
     // Sum of the half extents.
     reach: f32,
+    // Largest distance from the middle.
+    radius: f32,
+}
+
+// Half the range of n . s over the light, rounded up: over its box, or over the ball around it where that is less.
+fn spread_of(normal: vec3<f32>, light: Light) -> f32 {
+    return min(dot(abs(normal), light.half), length(normal) * light.radius) * 1.000002;
 }
 
 // A view-sample, and the plane of the triangle it lies on.
@@ -52,7 +59,7 @@ fn receiver_of(place: vec3<f32>, own: u32, light: Light) -> Receiver {
         receiver.plane = plane_through(b - a, c - a);
         let offset = light.middle - a;
         let height = dot(receiver.plane.xyz, offset);
-        let range = dot(abs(receiver.plane.xyz), light.half) * 1.000001;
+        let range = spread_of(receiver.plane.xyz, light);
         let slack = receiver.plane.w * (sum_of_sizes(offset) + light.reach);
         receiver.light_side = select(0.0, sign(height), abs(height) > range + slack);
     }
@@ -102,15 +109,15 @@ fn pair_of(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, receiver: Receiver, light: 
         dot(front.xyz, from_light),
     );
     let range = vec4<f32>(
-        dot(abs(planes[0].xyz), light.half),
-        dot(abs(planes[1].xyz), light.half),
-        dot(abs(planes[2].xyz), light.half),
-        dot(abs(front.xyz), light.half),
+        spread_of(planes[0].xyz, light),
+        spread_of(planes[1].xyz, light),
+        spread_of(planes[2].xyz, light),
+        spread_of(front.xyz, light),
     );
     let far = sum_of_sizes(receiver.to_light) + light.reach;
     let slack = vec4<f32>(planes[0].w * far, planes[1].w * far, planes[2].w * far,
         front.w * (sum_of_sizes(from_light) + light.reach));
-    let width = range * 1.000001 + slack;
+    let width = range + slack;
     let surely_plus = value > width;
     let surely_minus = value < -width;
     // Without a winding the edges must agree with each other.

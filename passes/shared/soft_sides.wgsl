@@ -55,11 +55,12 @@ fn sides_of(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, receiver: Rece
         let wide = WIDE_ERROR * sum_of_sizes(seen.high) * sum_of_sizes(first.high) * sum_of_sizes(second.high);
         let slack = EVALUATED * (range + abs(value.x)) + wide + plane.w * light.reach;
         let turned = winding * value.x;
-        if turned < -(range + slack) {
+        let width = spread_of(plane.xyz, light) + slack;
+        if turned < -width {
             sides.is_nothing = true;
             return sides;
         }
-        if turned <= range + slack {
+        if turned <= width {
             // Slack is above zero but where an edge or an offset has no length: then the value is zero everywhere, which is inside.
             let scale = select(winding / slack, 0.0, slack == 0.0);
             let scaled = vec4<f32>(plane.xyz * light.half * scale, select(value.x * scale, 2.0, slack == 0.0));

@@ -6,9 +6,10 @@
 //! the next node from a box that is met, and to the node after the subtree otherwise, needs no stack ([`WGSL`] does).
 //!
 //! Boxes are the exact bounds of their triangles, one f32 step wider. A slab distance `(bound - from) / along` in f32 errs by at
-//! most a difference's and a product's rounding and a reciprocal's, to which WGSL allows 2.5 units in the last place: 4.2e-7 of itself.
-//! Both backends give way by [`SLAB_ERROR`], so no box that is met is passed over. The tree of nothing is one box at the far corner
-//! of space, which no segment reaches: low is not above high, so no comparison of the two can turn it into all of space.
+//! most a difference's and a product's rounding and a reciprocal's, to which WGSL allows 2.5 units in the last place: 4.2e-7 of
+//! itself. Both backends give way by [`SLAB_ERROR`], so no box that is met is passed over. The tree of nothing is one box at the
+//! far corner of space, which no segment reaches: low is not above high, so no comparison of the two can turn it into all of
+//! space.
 
 /// Words of a node.
 pub const NODE_WORDS: usize = 8;

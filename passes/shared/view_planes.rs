@@ -34,7 +34,7 @@ pub struct Planes {
     pub range: [f64; 4],
     /// Whether the sign is turned.
     pub turned: [bool; 4],
-    /// Whether the light's box has, or may have, both sides. Elsewhere all of the light is inside.
+    /// Whether the light's box and ball have, or may have, both sides. Elsewhere all of the light is inside.
     pub cut: [bool; 4],
 }
 
@@ -73,7 +73,7 @@ impl Planes {
     #[inline(always)]
     fn set(&mut self, k: usize, light: &LightBox, normal: [f64; 3], constant: f64, slack: f64, turned: bool) -> bool {
         let range = (0..3).map(|axis| normal[axis].abs() * light.half[axis]).sum::<f64>();
-        let (value, width) = (if turned { -constant } else { constant }, range * (1.0 + 1e-12) + slack);
+        let (value, width) = (if turned { -constant } else { constant }, light.spread(normal) * (1.0 + 1e-12) + slack);
         (self.normal[k], self.constant[k], self.slack[k], self.range[k]) = (normal, constant, slack, range);
         self.turned[k] = turned;
         // An exact zero is inside.
@@ -129,8 +129,8 @@ pub fn side_of_light(corners: &Corners, light: &LightBox) -> i32 {
     // det(a - S, b - S, c - S) = N . (a - S).
     let value = -dot(normal, from_light);
     let reach = light.half.iter().sum::<f64>();
-    let range = (0..3).map(|axis| normal[axis].abs() * light.half[axis]).sum::<f64>();
-    let width = range * (1.0 + 1e-12) + ERROR * size(lines[0]) * size(lines[1]) * (size(from_light) + reach);
+    let width =
+        light.spread(normal) * (1.0 + 1e-12) + ERROR * size(lines[0]) * size(lines[1]) * (size(from_light) + reach);
     i32::from(value > width) - i32::from(value < -width)
 }
 

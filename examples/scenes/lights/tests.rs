@@ -137,7 +137,7 @@ fn seeds_choose_other_samples_and_the_mean_stays_near_the_centre() {
 }
 
 /// Chi-square over cells of equal area or volume, as the mean of its standard normal form over some seeds.
-fn unevenness(light: &Light, generator: Generator, count: usize, cell: &dyn Fn(DVec3) -> usize, cells: usize) -> f64 {
+fn unevenness(light: &Light, generator: Generator, count: usize, cell: Cell, cells: usize) -> f64 {
     let of_seed = |seed| {
         let mut seen = vec![0.0; cells];
         for point in samples_of(light, generator, count, seed) {
@@ -150,6 +150,9 @@ fn unevenness(light: &Light, generator: Generator, count: usize, cell: &dyn Fn(D
     };
     (1..=8).map(of_seed).sum::<f64>() / 8.0
 }
+
+/// Number of the cell that a point lies in.
+type Cell<'a> = &'a dyn Fn(DVec3) -> usize;
 
 #[test]
 fn areas_and_volumes_are_filled_evenly_and_better_than_by_chance() {
@@ -167,7 +170,7 @@ fn areas_and_volumes_are_filled_evenly_and_better_than_by_chance() {
         let p = own(p);
         (steps(p.length().powi(3), 3) * 4 + steps(turn(p), 4)) * 3 + steps((p.z / p.length() + 1.0) / 2.0, 3)
     };
-    let lights: [(Light, &dyn Fn(DVec3) -> usize, usize); 3] = [
+    let lights: [(Light, Cell, usize); 3] = [
         (shaped(LightShape::Disc { half_axes: flat }), &disc, 32),
         (shaped(LightShape::Rectangle { half_axes: flat }), &square, 36),
         (shaped(LightShape::Ellipsoid { half_axes: axes }), &ball, 36),

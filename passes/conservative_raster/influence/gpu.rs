@@ -42,6 +42,10 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
             .found(light_count.to_string())
             .remedy("run this node on the CPU backend"));
     }
+    if cx.dim("triangles", 0) == 0 {
+        cx.zero(Target::Port("caster_length"));
+        return Ok(());
+    }
     let (shape, bounds) = bounds(cx.params());
     let body = cx.scratch("light_body", BODY_WORDS);
     let step = std::f64::consts::TAU / bounds.sides as f64;

@@ -20,7 +20,7 @@ impl PairTest for HalfPlanes {
     }
 
     #[inline(always)]
-    fn bits<S: Simd>(&self, simd: S, pair: &mut Pair, ready: &Sides, word: usize, open: u32) -> u32 {
+    fn bits<S: Simd>(&self, simd: S, pair: &mut Pair, ready: &mut Sides, word: usize, open: u32) -> u32 {
         let [inside, doubtful] = sides(simd, ready, pair.light, word);
         let doubts = doubtful & open;
         if doubts == 0 { inside } else { inside | pair.decide(word, doubts) }
@@ -29,7 +29,8 @@ impl PairTest for HalfPlanes {
 
 /// The CPU function.
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
-    let (mask, counts) = Soft::new(cx).masks(&HalfPlanes, cx.progress());
+    let (mask, counts) =
+        Soft::new(cx, LightBox::clustered(cx.input("light_samples").as_vec3())).masks(&HalfPlanes, cx.progress());
     cx.put("mask", mask);
     cx.count("pairs", counts.pairs);
     cx.count("cut_pairs", counts.cut_pairs);

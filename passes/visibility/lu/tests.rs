@@ -28,7 +28,8 @@ fn few_bits_are_wrong_and_fewer_with_a_larger_table() {
     assert!(shares[0] > 0.0 && shares[0] < 0.08 && shares[1] < 0.6 * shares[0], "{shares:?}");
 }
 
-/// Triangles around `centre`, five or more, wide enough that no outer edge comes near the light: at least 9 cos(51 degrees) from `centre`.
+/// Triangles around `centre`, five or more, wide enough that no outer edge comes near the light: at least 9 cos(51 degrees) from
+/// `centre`.
 fn fan(r: &mut Random, centre: [f32; 3], parts: usize) -> Vec<[[f32; 3]; 3]> {
     let rim: Vec<[f32; 3]> = (0..parts)
         .map(|part| {

@@ -30,7 +30,14 @@ impl PairTest for LookUp<'_> {
     }
 
     #[inline(always)]
-    fn bits<S: Simd>(&self, simd: S, pair: &mut Pair, (bins, ready): &(Bins, Sides), word: usize, open: u32) -> u32 {
+    fn bits<S: Simd>(
+        &self,
+        simd: S,
+        pair: &mut Pair,
+        (bins, ready): &mut (Bins, Sides),
+        word: usize,
+        open: u32,
+    ) -> u32 {
         if bins.is_outside {
             return 0;
         }
@@ -62,7 +69,8 @@ impl PairTest for LookUp<'_> {
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let count = cx.input("light_samples").dim(0);
     let table = Table::new(FORM, cx.optional("lu"), cx.optional("lu_layout"), count)?;
-    let (mask, counts) = Soft::new(cx).masks(&LookUp(table), cx.progress());
+    let (mask, counts) =
+        Soft::new(cx, LightBox::new(cx.input("light_samples").as_vec3())).masks(&LookUp(table), cx.progress());
     cx.put("mask", mask);
     cx.count("exact_bits", counts.exact);
     cx.count("pairs", counts.pairs);

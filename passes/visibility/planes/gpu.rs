@@ -24,8 +24,10 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     let triangle_count = cx.dim("triangles", 0);
     // A cell lists each triangle once.
     let shares = triangle_count.div_ceil(GROUP * OWN_CASTERS).max(1) as u32;
-    let sides = cx.scratch("planes_sides", 12 * triangle_count);
-    let fronts = cx.scratch("planes_fronts", 8 * triangle_count);
+    // A binding holds one row at least.
+    let rows = triangle_count.max(1);
+    let sides = cx.scratch("planes_sides", 12 * rows);
+    let fronts = cx.scratch("planes_fronts", 8 * rows);
     let queue = cx.scratch("planes_queue", QUEUES * sample_count);
     let queued = cx.scratch("planes_queued", QUEUES);
     cx.zero(queued);
