@@ -18,6 +18,11 @@ fn largest_component(vector: vec3<f32>) -> f32 {
     return max(max(abs(vector.x), abs(vector.y)), abs(vector.z));
 }
 
+// By bits: compilers may take it that no float is infinite or none.
+fn is_finite(vector: vec3<f32>) -> bool {
+    return all((bitcast<vec3<u32>>(vector) & vec3<u32>(0x7f800000u)) != vec3<u32>(0x7f800000u));
+}
+
 fn store(index: u32, seen: u32, p: vec3<f32>, n: vec3<f32>) {
     for (var axis = 0u; axis < 3u; axis++) {
         position[3u * index + axis] = p[axis];
@@ -57,5 +62,10 @@ fn raster_resolve(@builtin(global_invocation_id) id: vec3<u32>) {
     // Scaled, so that the squares of small edges do not vanish.
     let scale = max(largest_component(ab), largest_component(ac));
     let n = cross(ab / scale, ac / scale);
+    if !is_finite(p) || !(dot(n, n) > 0.0) || !is_finite(n) {
+        // Seen from its edge, or without area, as far as f32 can tell: there is no point to ask about.
+        store(index, NO_TRIANGLE, vec3<f32>(0.0), vec3<f32>(0.0));
+        return;
+    }
     store(index, seen, p, normalize(n) * select(1.0, -1.0, dot(n, ray) > 0.0));
 }
