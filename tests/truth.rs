@@ -127,14 +127,7 @@ fn check_soft(graph: &str, scene: &str, size: &str, backend: &str, share: f64) -
     check_lit(&[graph], AREA_LIGHT, scene, size, backend, share)
 }
 
-fn check_lit(
-    words: &[&str],
-    light: &[&str],
-    scene: &str,
-    size: &str,
-    backend: &str,
-    share: f64,
-) -> Result<(), Failed> {
+fn check_lit(words: &[&str], light: &[&str], scene: &str, size: &str, backend: &str, share: f64) -> Result<(), Failed> {
     let more: &[&str] = &["--truth", "truth_soft", "--backend", backend, "--size", size, "--quiet"];
     let args = verify_args(&[words, more, light].concat());
     let job = job_lit(&format!("builtin:{scene}"), size, light);

@@ -75,7 +75,10 @@ fn a_disc_tilted_about_two_axes_is_planar_though_not_through_the_middle_of_its_b
             for sample in &samples {
                 let offset = layout.offset(*sample).map(|x| x * layout.radius);
                 let height = (0..3).map(|k| layout.axes[2][k] * offset[k]).sum::<f32>();
-                assert!((height - layout.height).abs() < 1e-6 + 4.0 * f32::EPSILON * centre[1], "{height} in {layout:?}");
+                assert!(
+                    (height - layout.height).abs() < 1e-6 + 4.0 * f32::EPSILON * centre[1],
+                    "{height} in {layout:?}"
+                );
             }
         }
     }

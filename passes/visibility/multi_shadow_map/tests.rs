@@ -140,8 +140,14 @@ fn memory_does_not_grow_with_the_light_samples() {
 fn maps_that_do_not_fit_are_refused_with_what_would() {
     assert!(check_bytes(1, 1024, 32).is_ok() && check_bytes(2, 16_384, 1).is_ok());
     let problem = check_bytes(6, 16_384, 1).unwrap_err().to_string();
-    assert!(problem.contains("at most 2147483648 bytes") && problem.contains("set `size` to 9459 or less"), "{problem}");
+    assert!(
+        problem.contains("at most 2147483648 bytes") && problem.contains("set `size` to 9459 or less"),
+        "{problem}"
+    );
     check_bytes(6, 9459, 1).unwrap();
     let problem = check_bytes(1, 8192, 32).unwrap_err().to_string();
-    assert!(problem.contains("found 8589934592 bytes") && problem.contains("set `memory` to 2048 or less"), "{problem}");
+    assert!(
+        problem.contains("found 8589934592 bytes") && problem.contains("set `memory` to 2048 or less"),
+        "{problem}"
+    );
 }
