@@ -60,3 +60,36 @@ impl LightPlane {
 fn point(sample: [f32; 3]) -> DVec3 {
     Vec3::from(sample).as_dvec3()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Corners of a triangle across (3, 10, 2), and what lies between them, moved by `off` along the normal (3, 10, 2).
+    fn samples(off: f32) -> Vec<[f32; 3]> {
+        let at = |u: f32, v: f32, off: f32| {
+            [3.0 + u + 3.0 * off, 10.0 - 0.3 * u - 0.2 * v + 10.0 * off, 2.0 + v + 2.0 * off]
+        };
+        vec![at(-0.3, -0.3, 0.0), at(0.4, 0.0, 0.0), at(-0.1, 0.5, 0.0), at(0.1, 0.1, off)]
+    }
+
+    #[test]
+    fn rounding_is_let_pass_and_more_is_not() {
+        let flat = samples(0.0);
+        let plane = LightPlane::of(&flat);
+        assert!(flat.iter().all(|sample| plane.has(*sample)));
+        assert!((plane.normal.dot(DVec3::new(3.0, 10.0, 2.0).normalize())).abs() > 1.0 - 1e-6);
+        let bent = samples(1e-5);
+        assert!(!LightPlane::of(&bent).has(bent[3]));
+    }
+
+    #[test]
+    fn points_and_segments_lie_in_a_plane_with_unit_axes() {
+        let segment: Vec<[f32; 3]> = (0..5).map(|k| [k as f32, 1.0, -0.5 * k as f32]).collect();
+        for samples in [&[][..], &[[1.0, 2.0, 3.0]], &[[0.0; 3]; 2], &segment] {
+            let plane = LightPlane::of(samples);
+            assert!(samples.iter().all(|sample| plane.has(*sample)));
+            assert!((plane.normal.length() - 1.0).abs() < 1e-12 && plane.normal.dot(plane.axis).abs() < 1e-12);
+        }
+    }
+}
