@@ -66,7 +66,7 @@ visibility/fused_draw w caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_
 visibility/half_planes cw list_length,lu,lu_layout,bvh_nodes,bvh_order -
 visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout -
 visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order contact_ulps
-visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
+visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order patches
 bvh_build/ploc c - -
 visibility/multi_shadow_map cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
 light_depth/first_surface cw - size,bias
@@ -85,6 +85,7 @@ const SPECS: &[ParamSpec] = &[
     spec("contact_ulps", Range::F32 { min: 0.0, max: 1024.0, default: 1.0 }),
     spec("margin", Range::F32 { min: 0.0, max: 1.0, default: 0.25 }),
     spec("bias", Range::Word { words: &["constant", "slope"], default: "constant" }),
+    spec("patches", Range::Word { words: &["auto", "always", "off"], default: "auto" }),
     spec("taps", Range::U32 { min: 1, max: 15, default: 3 }),
 ];
 

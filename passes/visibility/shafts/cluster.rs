@@ -1,13 +1,13 @@
 //! One cluster: gathers casters, divides its shaft until every part is decided.
 
-use super::LANES;
 use super::candidates::Candidates;
-use super::groups::{Blocks, Frame, LightBox, Range, Slanted, every, size, tree_len};
-use super::leaf::{Pair, test};
-use super::own::{OwnPlanes, Verdict, World};
-use super::shaft::{CORNER_ERROR, EDGE_ERROR, PLANE_ERROR, Shaft, TINY};
+use super::groups::{Blocks, Frame, LightBox, Slanted, every, size, tree_len};
+use super::neighbours::Neighbours;
+use super::own::{OwnPlanes, Owners, Verdict, World};
+use super::patches::{Choice, HELD_BACK, MIXED, Patches, UNKNOWN};
+use super::shaft::{CORNER_ERROR, EDGE_ERROR, PLANE_ERROR, Shaft, TINY, Vector, dot, dot_one, from, load, minus};
 use super::tree::{Casters, Node};
-use crate::shared::predicate::blocks;
+use super::{LANES, lanes_from};
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, u32x16};
 
 /// What a cluster reads.
@@ -17,6 +17,10 @@ pub struct Scene<'a> {
     pub world: World<'a>,
     /// Casters.
     pub casters: &'a Casters,
+    /// Triangles across edges.
+    pub neighbours: &'a Neighbours,
+    /// When patches are decided together.
+    pub patches: Choice,
     /// View-samples.
     pub position: &'a [[f32; 3]],
     /// Triangle of each.
@@ -36,6 +40,8 @@ pub struct Counts {
     pub lit: u64,
     /// Found to be blocked by one caster.
     pub covered: u64,
+    /// Found to be blocked by one patch.
+    pub by_patch: u64,
     /// (caster, shaft) pairs looked at on the way.
     pub met: u64,
     /// (caster, leaf) pairs tested segment by segment.
@@ -50,6 +56,7 @@ impl Counts {
         self.shafts += other.shafts;
         self.lit += other.lit;
         self.covered += other.covered;
+        self.by_patch += other.by_patch;
         self.met += other.met;
         self.tested += other.tested;
         self.exact += other.exact;
@@ -58,9 +65,11 @@ impl Counts {
 
 /// A caster of the cluster.
 #[derive(Clone, Copy)]
-struct Slot {
-    triangle: u32,
-    verdict: Verdict,
+pub struct Slot {
+    /// Its index.
+    pub triangle: u32,
+    /// What own triangles make of it.
+    pub verdict: Verdict,
 }
 
 /// What a thread keeps from cluster to cluster.
@@ -68,17 +77,27 @@ struct Slot {
 pub struct Worker {
     points: Vec<[f32; 3]>,
     frame: Frame,
-    views: Blocks,
-    lights: Blocks,
-    slanted: Vec<Slanted>,
-    boxes: Vec<LightBox>,
-    list: Candidates,
-    slots: Vec<Slot>,
-    own: OwnPlanes,
+    /// View-samples of the cluster.
+    pub views: Blocks,
+    /// Light samples as the cluster sees them.
+    pub lights: Blocks,
+    /// Boxes of view-samples, by node.
+    pub slanted: Vec<Slanted>,
+    /// Boxes of light samples, by node.
+    pub boxes: Vec<LightBox>,
+    /// Casters that may matter.
+    pub list: Candidates,
+    /// All casters of the cluster.
+    pub slots: Vec<Slot>,
+    /// Own triangles.
+    pub own: OwnPlanes,
+    /// Those of groups of view-samples, by node.
+    pub owners: Vec<Owners>,
+    /// Memory of [`Self::decide_patches`].
+    pub patches: Patches,
     stack: Vec<u32>,
-    pairs: Vec<(usize, Pair)>,
     /// A bit a light sample of a block, for each view-sample by place and each block.
-    masks: Vec<u16>,
+    pub masks: Vec<u16>,
     /// What was counted.
     pub counts: Counts,
 }
@@ -101,6 +120,10 @@ impl Worker {
         self.masks.resize(views.last * LANES * lights.last, 0);
         let owns = self.views.index[..self.views.count].iter().map(|&row| scene.triangle[row as usize]);
         self.own.gather(&scene.world, &frame, owns, (self.boxes[0].low, self.boxes[0].high));
+        self.owners.resize(tree_len(views.last), Owners::default());
+        every(views, &mut |range| {
+            self.owners[range.node] = self.own.owners(range.first * LANES..range.last * LANES);
+        });
         self.list.len = 0;
         self.gather(simd, scene);
         if self.list.len > 0 {
@@ -139,17 +162,25 @@ impl Worker {
         }
         // What the own triangles let through; the rest leaves the list.
         let mut kept = 0;
+        self.patches.clear(scene.world.triangles.len());
         for place in 0..self.list.len {
             let triangle = scene.casters.id[self.list.slot[place] as usize];
             let verdict = self.own.judge(&scene.world, &self.list, place, triangle);
-            if verdict != Verdict::Never {
+            if verdict == Verdict::Never {
+                self.patches.name(triangle, HELD_BACK);
+            } else {
+                self.patches.name(triangle, self.slots.len() as u32);
+                self.patches.across.push([UNKNOWN; 3]);
+                self.patches.seen.push([0; 2]);
                 self.list.copy(place, kept);
                 self.list.slot[kept] = self.slots.len() as u32;
+                self.list.flags[kept] = if verdict == Verdict::Plain { 0 } else { MIXED };
                 self.slots.push(Slot { triangle, verdict });
                 kept += 1;
             }
         }
         self.list.len = kept;
+        self.patches.open_account(kept);
     }
 
     /// The shaft's sides in world space: inside is `normal . p <= limit`.
@@ -179,192 +210,29 @@ impl Worker {
     /// Turns a run of casters into the cluster's space and keeps those that the shaft may meet.
     #[inline(always)]
     fn meet_run<S: Simd>(&mut self, simd: S, scene: &Scene, shaft: &Shaft, first: usize, count: u32) {
-        let row = |k: usize| f32x16::from_slice(simd, &scene.casters.corner[k][first..first + LANES]);
+        let corner = &scene.casters.corner;
         let Frame { origin, axes } = self.frame;
-        let turn = |v: [f32x16<S>; 3]| axes.map(|axis| v[0].mul_add(axis[0], v[1].mul_add(axis[1], v[2] * axis[2])));
-        let a = turn([row(0) - origin[0], row(1) - origin[1], row(2) - origin[2]]);
-        let (g, h) = (turn([row(3), row(4), row(5)]), turn([row(6), row(7), row(8)]));
-        let size = |v: [f32x16<S>; 3]| v[0].abs() + v[1].abs() + v[2].abs();
-        let (size_g, size_h) = (size(g), size(h));
-        let reach = size(a) + size_g + size_h + self.views.reach;
+        let a = [load(simd, &corner[0], first), load(simd, &corner[1], first), load(simd, &corner[2], first)];
+        let g = [load(simd, &corner[3], first), load(simd, &corner[4], first), load(simd, &corner[5], first)];
+        let h = [load(simd, &corner[6], first), load(simd, &corner[7], first), load(simd, &corner[8], first)];
+        let a = turn(axes, from(a, origin));
+        let (g, h) = (turn(axes, g), turn(axes, h));
+        let (long_g, long_h) = (lengths(g), lengths(h));
+        let long_b = lengths(minus(h, g));
+        let reach = lengths(a) + long_g.max(long_h) + self.views.reach;
         let light = self.lights.reach + self.views.reach;
-        let edge_error = ((size_g + size_h) * reach).mul_add(EDGE_ERROR * light, TINY);
-        let plane_error = (size_g * size_h * (reach + light)).mul_add(PLANE_ERROR, TINY);
+        let edge_error = (long_g.max(long_h).max(long_b) * reach).mul_add(EDGE_ERROR * light, TINY);
+        let plane_error = (long_g * long_h * (reach + light)).mul_add(PLANE_ERROR, TINY);
         let far = reach.mul_add(CORNER_ERROR, TINY);
         let rows = [a[0], a[1], a[2], g[0], g[1], g[2], h[0], h[1], h[2], edge_error, plane_error, far];
         self.list.reserve(LANES);
         let place = self.list.len;
         let slot = u32x16::from_slice(simd, &PLACES) + first as u32;
-        self.list.push(simd, rows, slot, u16::MAX);
+        self.list.push(simd, rows, slot, slot, u16::MAX);
         self.list.len = place;
-        let lanes = ((1u32 << count) - 1) as u16;
+        let lanes = lanes_from(count as usize);
         let answer = shaft.meet(simd, &self.list, place, lanes);
-        self.list.push_from(simd, place, answer.open | answer.covers);
-    }
-
-    /// Decides the shaft from `views` to `lights`, whose candidates are those from `start` on; they are still there afterwards.
-    fn divide<S: Simd>(&mut self, simd: S, scene: &Scene, views: Range, lights: Range, start: usize) {
-        self.counts.shafts += 1;
-        let end = self.list.len;
-        self.counts.met += (end - start) as u64;
-        let shaft = Shaft::new(self.slanted[views.node], self.boxes[lights.node]);
-        if views.len() == 1 && lights.len() == 1 {
-            simd.vectorize(
-                #[inline(always)]
-                || self.leaf(simd, scene, &shaft, views.first, lights.first, start),
-            );
-            return;
-        }
-        let narrowed = simd.vectorize(
-            #[inline(always)]
-            || self.narrow(simd, &shaft, start),
-        );
-        let Some(views_wider) = narrowed else {
-            self.counts.covered += 1;
-            self.fill(views, lights);
-            self.list.len = end;
-            return;
-        };
-        let left = self.list.len - end;
-        if left == 0 {
-            self.counts.lit += 1;
-            return;
-        }
-        let by_views = lights.len() == 1 || (views.len() > 1 && 2 * views_wider > left);
-        if by_views {
-            for half in views.halves() {
-                self.divide(simd, scene, half, lights, end);
-            }
-        } else {
-            for half in lights.halves() {
-                self.divide(simd, scene, views, half, end);
-            }
-        }
-        self.list.len = end;
-    }
-
-    /// Puts the candidates from `start` on that stay open on the stack once more; how many are wider through the view-samples.
-    /// None when one covers the shaft.
-    #[inline(always)]
-    fn narrow<S: Simd>(&mut self, simd: S, shaft: &Shaft, start: usize) -> Option<usize> {
-        let end = self.list.len;
-        self.list.reserve(end - start + LANES);
-        let mut views_wider = 0;
-        for place in (start..end).step_by(LANES) {
-            let lanes = lanes_from(end - place);
-            let answer = shaft.meet(simd, &self.list, place, lanes);
-            let mut keep = answer.open;
-            if answer.covers != 0 {
-                if self.covers(place, answer.covers) {
-                    return None;
-                }
-                keep |= answer.covers;
-            }
-            if keep != 0 {
-                self.list.push_from(simd, place, keep);
-                views_wider += answer.views_wider.count_ones() as usize;
-            }
-        }
-        Some(views_wider)
-    }
-
-    /// Whether one of `lanes` blocks for every view-sample that it covers.
-    fn covers(&self, place: usize, lanes: u16) -> bool {
-        (0..LANES).any(|lane| {
-            lanes >> lane & 1 == 1 && self.slots[self.list.slot[place + lane] as usize].verdict == Verdict::Plain
-        })
-    }
-
-    fn fill(&mut self, views: Range, lights: Range) {
-        let blocks = self.lights.root().last;
-        for view in views.first * LANES..views.last * LANES {
-            self.masks[view * blocks + lights.first..view * blocks + lights.last].fill(u16::MAX);
-        }
-    }
-
-    /// Decides every segment from one block of view-samples to one of light samples.
-    #[inline(always)]
-    fn leaf<S: Simd>(&mut self, simd: S, scene: &Scene, shaft: &Shaft, view: usize, light: usize, start: usize) {
-        let end = self.list.len;
-        self.pairs.clear();
-        for place in (start..end).step_by(LANES) {
-            let answer = shaft.meet(simd, &self.list, place, lanes_from(end - place));
-            if answer.covers != 0 && self.covers(place, answer.covers) {
-                self.counts.covered += 1;
-                let block = |first| Range { node: 0, first, last: first + 1 };
-                self.fill(block(view), block(light));
-                return;
-            }
-            let mut left = answer.open | answer.covers;
-            while left != 0 {
-                let lane = left.trailing_zeros() as usize;
-                left &= left - 1;
-                let bit = |mask: u16| (mask >> lane & 1) as u8;
-                let edges = bit(answer.edge[0]) | bit(answer.edge[1]) << 1 | bit(answer.edge[2]) << 2;
-                let side = bit(answer.from_below) as i8 - bit(answer.from_above) as i8;
-                let place = place + lane;
-                let pair = Pair {
-                    caster: self.list.caster(place),
-                    edge_error: self.list.rows[9][place],
-                    plane_error: self.list.rows[10][place],
-                    // An edge's sign means nothing while that of the plane is open.
-                    edges: if side == 0 { 0b111 } else { edges },
-                    side,
-                };
-                self.pairs.push((place, pair));
-            }
-        }
-        if self.pairs.is_empty() {
-            self.counts.lit += 1;
-            return;
-        }
-        let views = view * LANES;
-        let lights = light * LANES;
-        let view_points = self.views.at.each_ref().map(|along| &along[views..views + LANES]);
-        let light_points = self.lights.at.each_ref().map(|along| &along[lights..lights + LANES]);
-        let mut blocked = [0u16; LANES];
-        for (place, pair) in &self.pairs {
-            self.counts.tested += 1;
-            let mut found = test(simd, view_points, light_points, pair);
-            let slot = self.slots[self.list.slot[*place] as usize];
-            if let Verdict::Mixed(row) = slot.verdict {
-                let order = &self.lights.index[lights..lights + LANES];
-                let allowed = self.own.allowed(&scene.world, row, views, order);
-                for j in 0..LANES {
-                    found.sure[j] &= allowed[j];
-                    found.may[j] &= allowed[j];
-                }
-            }
-            let (mut full, mut doubt) = (u16::MAX, 0);
-            for j in 0..LANES {
-                blocked[j] |= found.sure[j];
-                found.may[j] &= !blocked[j];
-                full &= blocked[j];
-                doubt |= found.may[j];
-            }
-            if doubt != 0 {
-                for (j, may) in found.may.iter().enumerate() {
-                    let light = scene.world.lights[self.lights.index[lights + j] as usize];
-                    for lane in (0..LANES).filter(|lane| may >> lane & 1 == 1) {
-                        self.counts.exact += 1;
-                        let row = self.views.index[views + lane] as usize;
-                        let own = scene.world.triangles.get(scene.triangle[row] as usize);
-                        let caster = &scene.world.triangles[slot.triangle as usize];
-                        let is_blocked =
-                            scene.triangle[row] != slot.triangle && blocks(scene.position[row], own, caster, light);
-                        blocked[j] |= u16::from(is_blocked) << lane;
-                    }
-                }
-            }
-            if full == u16::MAX {
-                break;
-            }
-        }
-        let blocks = self.lights.root().last;
-        for lane in 0..LANES {
-            let bits = (0..LANES).fold(0, |bits, j| bits | (blocked[j] >> lane & 1) << j);
-            self.masks[(views + lane) * blocks + light] = bits;
-        }
+        self.list.push_from(simd, place, answer.open | answer.covers, slot);
     }
 
     /// Calls `write` with every view-sample that has blocked light samples, and the words of its mask.
@@ -396,24 +264,29 @@ impl Worker {
     }
 }
 
-const PLACES: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-
-/// The first `count` of sixteen.
-fn lanes_from(count: usize) -> u16 {
-    if count >= LANES { u16::MAX } else { (1 << count) - 1 }
+/// From the scene's axes to a cluster's.
+#[inline(always)]
+fn turn<S: Simd>(axes: [[f32; 3]; 3], v: Vector<S>) -> Vector<S> {
+    [dot_one(axes[0], v), dot_one(axes[1], v), dot_one(axes[2], v)]
 }
+
+/// Lengths, not less.
+#[inline(always)]
+fn lengths<S: Simd>(v: Vector<S>) -> f32x16<S> {
+    dot(v, v).sqrt() * (1.0 + 1e-6)
+}
+
+const PLACES: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// Boxes of `node` that no wall leaves out.
 #[inline(always)]
 fn boxes_inside<S: Simd>(simd: S, node: &Node, walls: &[([f32; 3], f32); 6]) -> u32 {
     let mut inside = node.used as u16;
     for (normal, limit) in walls {
-        let nearest = |axis: usize| {
-            let ends = if normal[axis] > 0.0 { &node.low[axis] } else { &node.high[axis] };
-            f32x16::from_slice(simd, ends)
-        };
-        let height = nearest(0).mul_add(normal[0], nearest(1).mul_add(normal[1], nearest(2) * normal[2]));
-        inside &= height.simd_le(*limit).to_bitmask() as u16;
+        let x = load(simd, if normal[0] > 0.0 { &node.low[0] } else { &node.high[0] }, 0);
+        let y = load(simd, if normal[1] > 0.0 { &node.low[1] } else { &node.high[1] }, 0);
+        let z = load(simd, if normal[2] > 0.0 { &node.low[2] } else { &node.high[2] }, 0);
+        inside &= dot_one(*normal, [x, y, z]).simd_le(*limit).to_bitmask() as u16;
     }
     u32::from(inside)
 }

@@ -1,7 +1,10 @@
 //! Clusters of view-samples in parallel.
 
+use super::MOST_VIEWS;
 use super::cluster::{Counts, Scene, Worker};
+use super::neighbours::Neighbours;
 use super::own::World;
+use super::patches::Choice;
 use super::tree::{Casters, unit_scale};
 use crate::ports;
 use crate::shared::atomic_words::{atomic_zeros, into_words};
@@ -18,6 +21,7 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
 /// Pixels along the side of a cluster's tile.
 const TILE: usize = 16;
+const _: () = assert!(TILE * TILE <= MOST_VIEWS);
 
 /// What the masks are a function of.
 #[derive(Clone, Copy)]
@@ -36,6 +40,8 @@ pub struct Receivers<'a> {
     pub sample_state: &'a [u32],
     /// Picture width and height; view-samples that are not its pixels are taken as they come.
     pub image: [usize; 2],
+    /// When joined casters are decided together.
+    pub patches: Choice,
 }
 
 /// Masks `[P, mask_words]`, and what was counted.
@@ -48,20 +54,27 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
     }
     let scale = unit_scale(triangles.iter().flatten().chain(light_samples).chain(position));
     let world = World { triangles, lights: light_samples, scale };
-    let casters = Casters::build(triangles, |id| receivers.caster_state[id] == 1, scale);
+    let casts = |id: usize| receivers.caster_state[id] == 1;
+    let patches = receivers.patches;
+    let (casters, neighbours) = rayon::join(
+        || Casters::build(triangles, casts, scale),
+        || Neighbours::new(triangles, |id| patches != Choice::Off && casts(id)),
+    );
     let lights: Vec<[f32; 3]> = light_samples.iter().map(|light| world.unit(*light)).collect();
     let share = 1.0 / lights.len() as f32;
     let light = lights.iter().fold([0.0; 3], |sum: [f32; 3], p| [0, 1, 2].map(|k| sum[k] + share * p[k]));
-    let scene = Scene { world, casters: &casters, position, triangle: receivers.triangle, lights: &lights, light };
-    let [width, height] = receivers.image;
-    let [width, height] = if width * height == position.len() {
-        [width, height]
-    } else {
-        [TILE * TILE, position.len().div_ceil(TILE * TILE)]
+    let scene = Scene {
+        world,
+        casters: &casters,
+        neighbours: &neighbours,
+        patches,
+        position,
+        triangle: receivers.triangle,
+        lights: &lights,
+        light,
     };
-    let tile = if width * height == position.len() && width != TILE * TILE { [TILE, TILE] } else { [TILE * TILE, 1] };
-    let across = width.div_ceil(tile[0]);
-    let tiles = across * height.div_ceil(tile[1]);
+    let clusters = Clusters::new(&receivers, &world);
+    let tiles = clusters.len();
     let done = AtomicU64::new(0);
     let step = (tiles as u64 / 100).max(1);
     let counts = (0..tiles)
@@ -69,13 +82,7 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
         .map_init(
             || (Worker::default(), Vec::new(), vec![0u32; words]),
             |(worker, rows, mask), tile_index| {
-                let corner = [tile_index % across * tile[0], tile_index / across * tile[1]];
-                rows.clear();
-                for y in corner[1]..(corner[1] + tile[1]).min(height) {
-                    for x in corner[0]..(corner[0] + tile[0]).min(width) {
-                        rows.push((y * width + x) as u32);
-                    }
-                }
+                clusters.rows(tile_index, rows);
                 rows.retain(|&row| keep(&receivers, &masks, words, row as usize));
                 worker.counts = Counts::default();
                 if !rows.is_empty() {
@@ -98,6 +105,55 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
             a
         });
     (into_words(masks), counts)
+}
+
+/// View-samples in clusters: tiles of the picture; or, where they are not its pixels, runs along a curve through space.
+enum Clusters {
+    Tiles { width: usize, height: usize },
+    Runs(Vec<u32>),
+}
+
+impl Clusters {
+    fn new(receivers: &Receivers, world: &World) -> Self {
+        let [width, height] = receivers.image;
+        if width * height == receivers.position.len() {
+            return Self::Tiles { width, height };
+        }
+        // Unit lengths are below 2 in each coordinate; what is not finite goes anywhere.
+        let key = |row: &u32| {
+            let spread = |x: f32| {
+                let cell = (((x + 2.0) * 256.0) as u64).min(1023);
+                (0..10).fold(0, |key, bit| key | (cell >> bit & 1) << (3 * bit))
+            };
+            let [x, y, z] = world.unit(receivers.position[*row as usize]).map(spread);
+            x | y << 1 | z << 2
+        };
+        let mut rows: Vec<u32> = (0..receivers.position.len() as u32).collect();
+        rows.par_sort_by_cached_key(key);
+        Self::Runs(rows)
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Tiles { width, height } => width.div_ceil(TILE) * height.div_ceil(TILE),
+            Self::Runs(rows) => rows.len().div_ceil(MOST_VIEWS),
+        }
+    }
+
+    /// Puts the view-samples of cluster `at` into `rows`.
+    fn rows(&self, at: usize, rows: &mut Vec<u32>) {
+        rows.clear();
+        match self {
+            Self::Tiles { width, height } => {
+                let across = width.div_ceil(TILE);
+                let [left, top] = [at % across * TILE, at / across * TILE];
+                for y in top..(top + TILE).min(*height) {
+                    rows.extend((left..(left + TILE).min(*width)).map(|x| (y * width + x) as u32));
+                }
+            }
+            Self::Runs(order) => rows.extend(order.iter().skip(at * MOST_VIEWS).take(MOST_VIEWS)),
+        }
+    }
 }
 
 /// Whether view-sample `row` is to be tested; the mask of one that faces away is filled.
@@ -123,6 +179,11 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
         triangle: cx.input(ports::TRIANGLE.name).as_u32(),
         sample_state: cx.input(ports::SAMPLE_STATE.name).as_u32(),
         image: cx.image(),
+        patches: match cx.params().word("patches") {
+            "off" => Choice::Off,
+            "always" => Choice::Always,
+            _ => Choice::Auto,
+        },
     };
     if let Some(at) = receivers.light_samples.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
         return Err(Problem::new(Kind::BadValue, "a light sample has no place")
@@ -137,6 +198,7 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     cx.count("shafts", counts.shafts);
     cx.count("lit_shafts", counts.lit);
     cx.count("covered_shafts", counts.covered);
+    cx.count("patch_shafts", counts.by_patch);
     cx.count("met", counts.met);
     cx.count("tested", counts.tested);
     cx.count("exact", counts.exact);

@@ -58,7 +58,7 @@ pub struct Blocks {
     pub index: Vec<u32>,
     /// Points that are not filling.
     pub count: usize,
-    /// Largest sum of absolute coordinates.
+    /// Largest length.
     pub reach: f32,
     points: Vec<Point>,
 }
@@ -156,7 +156,8 @@ impl Blocks {
         self.points.clear();
         self.points.extend(points.map(|(at, index)| Point { at, index }));
         self.count = self.points.len();
-        self.reach = self.points.iter().fold(0.0, |reach: f32, point| reach.max(size(point.at)));
+        self.reach =
+            self.points.iter().fold(0.0, |reach: f32, point| reach.max(dot(point.at, point.at).sqrt())) * (1.0 + 1e-6);
         let blocks = self.count.div_ceil(LANES);
         divide(&mut self.points, blocks);
         self.index.clear();

@@ -5,7 +5,8 @@
 //! two groups. A segment within rounding of an edge or plane is decided by [`crate::shared::predicate::blocks`].
 
 use super::LANES;
-use super::shaft::{cross, dot_scalar};
+use super::groups::LightBox;
+use super::shaft::{Vector, abs, cross, dot, dot_one, from, load};
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16};
 
 /// A caster at a leaf.
@@ -35,77 +36,112 @@ pub struct Found {
 /// What one caster does. `views` and `lights` are sixteen points each.
 #[inline(always)]
 pub fn test<S: Simd>(simd: S, views: [&[f32]; 3], lights: [&[f32]; 3], pair: &Pair) -> Found {
-    let view = views.map(|along| f32x16::from_slice(simd, along));
+    let view = [load(simd, views[0], 0), load(simd, views[1], 0), load(simd, views[2], 0)];
     let [a, g, h] = pair.caster;
     if pair.side != 0 {
-        let turn = f32::from(pair.side);
-        let [g, h] = [g, h].map(|edge| edge.map(|x| turn * x));
-        let sign = f32x16::splat(simd, 1.0);
-        return edges(simd, view, lights, a, g, h, sign, pair);
+        let sign = f32x16::splat(simd, f32::from(pair.side));
+        return edges(simd, view, lights, sign, pair);
     }
     // On which side of the caster's plane each view-sample and each light sample is.
     let normal = super::groups::cross(g, h);
-    let height = |points: [f32x16<S>; 3]| dot_scalar(normal, [0, 1, 2].map(|k| points[k] - a[k]));
-    let views_height = height(view);
-    let lights_height = height(lights.map(|along| f32x16::from_slice(simd, along)));
-    let below = |height: f32x16<S>| height.simd_lt(-pair.plane_error).to_bitmask() as u16;
-    let above = |height: f32x16<S>| height.simd_gt(pair.plane_error).to_bitmask() as u16;
-    let (view_below, view_above) = (below(views_height), above(views_height));
-    let (light_below, light_above) = (below(lights_height), above(lights_height));
-    let sign = f32x16::splat(simd, 1.0).copysign(-views_height);
-    let mut found = edges(simd, view, lights, a, g, h, sign, pair);
+    let light = [load(simd, lights[0], 0), load(simd, lights[1], 0), load(simd, lights[2], 0)];
+    let views_height = dot_one(normal, from(view, a));
+    let lights_height = dot_one(normal, from(light, a));
+    let (low, high) = (-pair.plane_error, pair.plane_error);
+    let view_below = views_height.simd_lt(low).to_bitmask() as u16;
+    let view_above = views_height.simd_gt(high).to_bitmask() as u16;
+    let light_below = lights_height.simd_lt(low).to_bitmask() as u16;
+    let light_above = lights_height.simd_gt(high).to_bitmask() as u16;
+    let zero = f32x16::splat(simd, 0.0);
+    let sign = f32x16::splat(simd, 1.0).copysign(zero - views_height);
+    let mut found = edges(simd, view, lights, sign, pair);
     let in_plane = !(view_below | view_above);
     if in_plane != 0 {
         // Either side may be the right one.
-        let other = edges(simd, view, lights, a, g, h, -sign, pair);
-        for (may, other) in found.may.iter_mut().zip(other.may) {
-            *may |= other & in_plane;
+        let other = edges(simd, view, lights, zero - sign, pair);
+        for j in 0..LANES {
+            found.may[j] |= other.may[j] & in_plane;
         }
     }
     for j in 0..LANES {
-        let spread = |mask: u16| if mask >> j & 1 == 1 { u16::MAX } else { 0 };
-        let (is_above, is_below) = (spread(light_above), spread(light_below));
+        let is_above = 0u16.wrapping_sub(light_above >> j & 1);
+        let is_below = 0u16.wrapping_sub(light_below >> j & 1);
         found.sure[j] &= (view_below & is_above) | (view_above & is_below);
         found.may[j] &= (!view_above & !is_below) | (!view_below & !is_above);
     }
     found
 }
 
+/// View-samples for which the caster may block some light sample of a box: each one's own cone, not the group's.
+#[inline(always)]
+pub fn open_lanes<S: Simd>(simd: S, views: [&[f32]; 3], light: &LightBox, pair: &Pair) -> u16 {
+    let view = [load(simd, views[0], 0), load(simd, views[1], 0), load(simd, views[2], 0)];
+    let [a, g, h] = pair.caster;
+    let mut middle = [0.0; 3];
+    let mut half = [0.0; 3];
+    for k in 0..3 {
+        middle[k] = 0.5 * (light.low[k] + light.high[k]);
+        half[k] = 0.5 * (light.high[k] - light.low[k]) * (1.0 + 1e-6);
+    }
+    let normal = super::groups::cross(g, h);
+    let views_height = dot_one(normal, from(view, a));
+    let below = views_height.simd_lt(-pair.plane_error).to_bitmask() as u16;
+    let above = views_height.simd_gt(pair.plane_error).to_bitmask() as u16;
+    let light_height = super::groups::dot(normal, [middle[0] - a[0], middle[1] - a[1], middle[2] - a[2]]);
+    let light_spread = super::groups::dot([normal[0].abs(), normal[1].abs(), normal[2].abs()], half) + pair.plane_error;
+    let mut misses = 0;
+    if light_height + light_spread < 0.0 {
+        misses |= below;
+    }
+    if light_height - light_spread > 0.0 {
+        misses |= above;
+    }
+    let b = [a[0] + g[0], a[1] + g[1], a[2] + g[2]];
+    let between = [h[0] - g[0], h[1] - g[1], h[2] - g[2]];
+    let bases = [a, b, a];
+    let lines = [g, between, [-h[0], -h[1], -h[2]]];
+    let sign = f32x16::splat(simd, 1.0);
+    let (mut negative, mut positive) = (0, 0);
+    for k in 0..3 {
+        let plane = plane(view, bases[k], lines[k], sign);
+        let spread = dot_one(half, abs([plane[0], plane[1], plane[2]])) + pair.edge_error;
+        let at = height(&plane, middle[0], middle[1], middle[2]);
+        negative |= (at + spread).simd_lt(0.0).to_bitmask() as u16;
+        positive |= (at - spread).simd_gt(0.0).to_bitmask() as u16;
+    }
+    !(misses | (negative & positive) | (below & negative) | (above & positive))
+}
+
 /// The edges alone; `sign` turns those of each view-sample.
 #[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "all of it in registers")]
-fn edges<S: Simd>(
-    simd: S,
-    view: [f32x16<S>; 3],
-    lights: [&[f32]; 3],
-    a: [f32; 3],
-    g: [f32; 3],
-    h: [f32; 3],
-    sign: f32x16<S>,
-    pair: &Pair,
-) -> Found {
-    // Where `g` and `h` came turned, so does b here; any point of the line from b to c does for the third edge.
-    let [true_a, true_g, _] = pair.caster;
-    let b = [0, 1, 2].map(|k| true_a[k] + true_g[k]);
-    let plane = |base: [f32; 3], edge: [f32; 3]| {
-        let from = [0, 1, 2].map(|k| f32x16::splat(simd, base[k]) - view[k]);
-        let m = cross(from, edge.map(|x| sign * x));
-        let constant = -(view[0].mul_add(m[0], view[1].mul_add(m[1], view[2] * m[2])));
-        [m[0], m[1], m[2], constant]
-    };
-    let first = || plane(a, g);
-    let second = || plane(b, [0, 1, 2].map(|k| h[k] - g[k]));
-    let third = || plane(a, h.map(|x| -x));
+fn edges<S: Simd>(simd: S, view: Vector<S>, lights: [&[f32]; 3], sign: f32x16<S>, pair: &Pair) -> Found {
+    let [a, g, h] = pair.caster;
+    let b = [a[0] + g[0], a[1] + g[1], a[2] + g[2]];
+    let between = [h[0] - g[0], h[1] - g[1], h[2] - g[2]];
     let error = pair.edge_error;
+    let back = [-h[0], -h[1], -h[2]];
     match pair.edges {
-        0b001 => sides(simd, [first()], lights, error),
-        0b010 => sides(simd, [second()], lights, error),
-        0b100 => sides(simd, [third()], lights, error),
-        0b011 => sides(simd, [first(), second()], lights, error),
-        0b110 => sides(simd, [second(), third()], lights, error),
-        0b101 => sides(simd, [first(), third()], lights, error),
-        _ => sides(simd, [first(), second(), third()], lights, error),
+        0b001 => sides(simd, [plane(view, a, g, sign)], lights, error),
+        0b010 => sides(simd, [plane(view, b, between, sign)], lights, error),
+        0b100 => sides(simd, [plane(view, a, back, sign)], lights, error),
+        0b011 => sides(simd, [plane(view, a, g, sign), plane(view, b, between, sign)], lights, error),
+        0b110 => sides(simd, [plane(view, b, between, sign), plane(view, a, back, sign)], lights, error),
+        0b101 => sides(simd, [plane(view, a, g, sign), plane(view, a, back, sign)], lights, error),
+        _ => {
+            let three = [plane(view, a, g, sign), plane(view, b, between, sign), plane(view, a, back, sign)];
+            sides(simd, three, lights, error)
+        }
     }
+}
+
+/// Through each view-sample and the edge: normal and constant.
+#[inline(always)]
+fn plane<S: Simd>(view: Vector<S>, base: [f32; 3], edge: [f32; 3], sign: f32x16<S>) -> [f32x16<S>; 4] {
+    let to = from(view, base);
+    // (base - v) x e = e x (v - base)
+    let m = cross([sign * edge[0], sign * edge[1], sign * edge[2]], to);
+    let constant = dot(view, m);
+    [m[0], m[1], m[2], constant]
 }
 
 /// On the inner side of all planes.
@@ -113,16 +149,20 @@ fn edges<S: Simd>(
 fn sides<S: Simd, const N: usize>(simd: S, planes: [[f32x16<S>; 4]; N], lights: [&[f32]; 3], error: f32) -> Found {
     let mut found = Found::default();
     let (inside, outside) = (f32x16::splat(simd, error), f32x16::splat(simd, -error));
-    let [x, y, z] = lights.map(|along| &along[..LANES]);
+    let (x, y, z) = (&lights[0][..LANES], &lights[1][..LANES], &lights[2][..LANES]);
     for j in 0..LANES {
-        let height =
-            |plane: [f32x16<S>; 4]| plane[0].mul_add(x[j], plane[1].mul_add(y[j], plane[2].mul_add(z[j], plane[3])));
-        let mut lowest = height(planes[0]);
-        for plane in &planes[1..] {
-            lowest = lowest.min(height(*plane));
+        let mut lowest = height(&planes[0], x[j], y[j], z[j]);
+        for k in 1..N {
+            lowest = lowest.min(height(&planes[k], x[j], y[j], z[j]));
         }
         found.sure[j] = lowest.simd_gt(inside).to_bitmask() as u16;
         found.may[j] = lowest.simd_ge(outside).to_bitmask() as u16;
     }
     found
+}
+
+/// Of one light sample above a plane of each view-sample.
+#[inline(always)]
+fn height<S: Simd>(plane: &[f32x16<S>; 4], x: f32, y: f32, z: f32) -> f32x16<S> {
+    plane[0].mul_add(x, plane[1].mul_add(y, plane[2].mul_sub(z, plane[3])))
 }

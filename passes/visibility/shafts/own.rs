@@ -4,13 +4,15 @@
 //! block there ([`crate::shared::predicate`]), and no triangle blocks points of itself. Bounds over all planes of the cluster
 //! settle most casters at once; what is left is looked at plane by plane, in doubt exactly, once for the cluster.
 
-use super::LANES;
 use super::candidates::Candidates;
 use super::groups::{Frame, cross, dot, size};
 use super::shaft::PLANE_ERROR;
+use super::{LANES, MOST_VIEWS};
 use crate::shared::predicate::{Corners, side};
 use std::collections::HashMap;
 
+/// Planes of a cluster that every caster is held against at once; with more, only where it matters.
+const SOON: usize = 4;
 /// Answers of the exact predicate that a thread keeps at most.
 const MOST_KNOWN: usize = 1 << 18;
 
@@ -40,12 +42,47 @@ pub enum Verdict {
     Never,
     /// Look at row `.0`.
     Mixed(u32),
+    /// Not looked at yet: [`OwnPlanes::judge_each`] tells.
+    Open,
 }
 
-/// Above and below: whether the caster has corners strictly there. `MINE`: the caster itself.
+/// Whether a caster has corners strictly there.
 const ABOVE: u8 = 1;
 const BELOW: u8 = 2;
-const MINE: u8 = 4;
+
+/// A set of a cluster's planes, of which there are at most as many as view-samples.
+type Set = [u64; MOST_VIEWS / 64];
+
+/// Own planes of a group of view-samples.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Owners {
+    planes: Set,
+    /// Whether some view-sample lies on no triangle.
+    free: bool,
+}
+
+/// What each plane makes of a caster.
+#[derive(Clone, Copy, Debug, Default)]
+struct Row {
+    above: Set,
+    below: Set,
+    /// Planes that let it through for every light sample.
+    plain: Set,
+    /// Planes that hold it back for every light sample: those of the caster itself among them.
+    never: Set,
+}
+
+fn has(set: &Set, at: u16) -> bool {
+    set[usize::from(at) / 64] >> (at % 64) & 1 == 1
+}
+
+fn put(set: &mut Set, at: usize) {
+    set[at / 64] |= 1 << (at % 64);
+}
+
+fn is_within(small: &Set, large: &Set) -> bool {
+    (0..small.len()).all(|word| small[word] & !large[word] == 0)
+}
 
 /// All own triangles of a cluster.
 #[derive(Default)]
@@ -53,7 +90,7 @@ pub struct OwnPlanes {
     planes: Vec<Plane>,
     /// Plane of each view-sample, by place; `NONE` when it lies on no triangle.
     of_view: Vec<u16>,
-    rows: Vec<u8>,
+    rows: Vec<Row>,
     mean: [f32; 3],
     spread: f32,
     /// Smallest and largest constants with the bounds of their errors.
@@ -129,14 +166,12 @@ impl OwnPlanes {
         }
     }
 
-    /// What they make of the caster at `place` of `list`, which is triangle `id`.
+    /// What they make of the caster at `place` of `list`, which is triangle `id`, as far as it is told soon.
     pub fn judge(&mut self, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
         if self.planes.is_empty() {
             return Verdict::Plain;
         }
-        let [a, g, h] = list.caster(place);
-        let corners = [a, [0, 1, 2].map(|k| a[k] + g[k]), [0, 1, 2].map(|k| a[k] + h[k])];
-        let reach = size(a) + size(g) + size(h);
+        let (corners, reach) = corners_of(list, place);
         if self.certain {
             let heights = corners.map(|corner| dot(self.mean, corner));
             let (low, high) = (heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2]));
@@ -150,65 +185,121 @@ impl OwnPlanes {
                 return Verdict::Never;
             }
         }
-        self.judge_each(world, &corners, reach, id)
+        if self.planes.len() <= SOON { self.judge_each(world, list, place, id) } else { Verdict::Open }
     }
 
     /// The same, plane by plane.
-    fn judge_each(&mut self, world: &World, corners: &[[f32; 3]; 3], reach: f32, id: u32) -> Verdict {
-        let first = self.rows.len();
-        let (mut plain, mut never) = (true, true);
-        for plane in &self.planes {
-            let bits =
-                if plane.triangle == id { MINE } else { plane.corners(world, &mut self.known, corners, reach, id) };
-            self.rows.push(bits);
-            plain &= bits & MINE == 0 && bits & ABOVE != 0 && (plane.lit || bits & BELOW != 0);
-            never &= bits & MINE != 0 || (plane.lit && bits & ABOVE == 0);
+    pub fn judge_each(&mut self, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
+        let (corners, reach) = corners_of(list, place);
+        let mut row = Row::default();
+        let (mut plain, mut never) = (true, self.complete);
+        for (at, plane) in self.planes.iter().enumerate() {
+            let is_mine = plane.triangle == id;
+            let bits = if is_mine { 0 } else { plane.corners(world, &mut self.known, &corners, reach, id) };
+            let (above, below) = (bits & ABOVE != 0, bits & BELOW != 0);
+            if above {
+                put(&mut row.above, at);
+            }
+            if below {
+                put(&mut row.below, at);
+            }
+            if above && (plane.lit || below) {
+                put(&mut row.plain, at);
+            } else {
+                plain = false;
+            }
+            if is_mine || (plane.lit && !above) {
+                put(&mut row.never, at);
+            } else {
+                never = false;
+            }
         }
-        // View-samples on no triangle take every caster.
-        never &= self.complete;
-        if plain || never {
-            self.rows.truncate(first);
-            return if plain { Verdict::Plain } else { Verdict::Never };
+        if plain {
+            return Verdict::Plain;
         }
-        Verdict::Mixed((first / self.planes.len()) as u32)
+        if never {
+            return Verdict::Never;
+        }
+        self.rows.push(row);
+        Verdict::Mixed(self.rows.len() as u32 - 1)
+    }
+
+    /// Own planes of the view-samples at `places`; filling counts as what it repeats.
+    pub fn owners(&self, places: std::ops::Range<usize>) -> Owners {
+        let mut owners = Owners::default();
+        for &at in &self.of_view[places.start.min(self.of_view.len())..places.end.min(self.of_view.len())] {
+            if at == NONE {
+                owners.free = true;
+            } else {
+                put(&mut owners.planes, usize::from(at));
+            }
+        }
+        owners
+    }
+
+    /// What a group's planes make of the caster of `row`.
+    #[inline]
+    pub fn judge_for(&self, owners: &Owners, row: u32) -> Verdict {
+        let known = &self.rows[row as usize];
+        if is_within(&owners.planes, &known.plain) {
+            Verdict::Plain
+        } else if !owners.free && is_within(&owners.planes, &known.never) {
+            Verdict::Never
+        } else {
+            Verdict::Mixed(row)
+        }
+    }
+
+    /// Those of sixteen view-samples from place `views` on that the caster of `row` may block.
+    #[inline]
+    pub fn possible(&self, row: u32, views: usize) -> u16 {
+        let never = &self.rows[row as usize].never;
+        let mut possible = 0;
+        for lane in 0..LANES {
+            let at = self.of_view[(views + lane).min(self.of_view.len() - 1)];
+            possible |= u16::from(at == NONE || !has(never, at)) << lane;
+        }
+        possible
     }
 
     /// For each of sixteen light samples, a bit for each of sixteen view-samples that lets the caster of `row` through.
-    /// `views` and `lights`: first places; `order`: light samples by place.
+    /// `views`: first place; `order`: light samples by place.
     pub fn allowed(&mut self, world: &World, row: u32, views: usize, order: &[u32]) -> [u16; LANES] {
-        let mut allowed = [0u16; LANES];
-        let first = row as usize * self.planes.len();
+        let row = &self.rows[row as usize];
+        let (mut always, mut sometimes) = (0u16, 0u16);
         for lane in 0..LANES {
             // Filling repeats the last view-sample.
-            let of_view = self.of_view[(views + lane).min(self.of_view.len() - 1)];
-            let bit = 1 << lane;
-            if of_view == NONE {
-                allowed.iter_mut().for_each(|allowed| *allowed |= bit);
-                continue;
+            let at = self.of_view[(views + lane).min(self.of_view.len() - 1)];
+            if at == NONE || has(&row.plain, at) {
+                always |= 1 << lane;
+            } else if !has(&row.never, at) {
+                sometimes |= 1 << lane;
             }
-            let bits = self.rows[first + of_view as usize];
-            let plane = &mut self.planes[of_view as usize];
-            if bits & MINE != 0 {
-                continue;
-            }
-            if plane.lit {
-                if bits & ABOVE != 0 {
-                    allowed.iter_mut().for_each(|allowed| *allowed |= bit);
-                }
-                continue;
-            }
-            let sides = plane.sides(world);
+        }
+        let mut allowed = [always; LANES];
+        while sometimes != 0 {
+            let lane = sometimes.trailing_zeros() as usize;
+            sometimes &= sometimes - 1;
+            let at = self.of_view[(views + lane).min(self.of_view.len() - 1)];
+            let (above, below) = (has(&row.above, at), has(&row.below, at));
+            let sides = self.planes[usize::from(at)].sides(world);
             for (allowed, light) in allowed.iter_mut().zip(order) {
                 let admits = match sides[*light as usize] {
                     0 => true,
-                    1 => bits & ABOVE != 0,
-                    _ => bits & BELOW != 0,
+                    1 => above,
+                    _ => below,
                 };
-                *allowed |= if admits { bit } else { 0 };
+                *allowed |= u16::from(admits) << lane;
             }
         }
         allowed
     }
+}
+
+/// Corners of a candidate, and what bounds the sums of their absolute coordinates.
+fn corners_of(list: &Candidates, place: usize) -> ([[f32; 3]; 3], f32) {
+    let [a, g, h] = list.caster(place);
+    ([a, [0, 1, 2].map(|k| a[k] + g[k]), [0, 1, 2].map(|k| a[k] + h[k])], size(a) + size(g) + size(h))
 }
 
 impl Plane {

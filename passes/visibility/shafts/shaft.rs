@@ -8,11 +8,11 @@
 //! A caster with normal N blocks a segment from below (N . (v - a) < 0) when all three f >= 0 and N . (s - a) >= 0, and from above with
 //! all signs turned: the conditions of [`crate::shared::predicate`].
 //!
-//! Bounds. A stored coordinate x of the cluster's space errs by at most 5 u of the sum of its point's absolute coordinates, u =
-//! 2^-24; an edge by 6 u of its own. Let E bound the edges of a triangle, R its corners and the view-samples, D the light samples
-//! and the view-samples. Then f errs by less than 32 u E R D through its arguments, and by less than 40 u E R D through at most
-//! thirty roundings of partial sums none of which is above E R D; N . (x - a) likewise by 48 u of |g| |h| (R + D). Both are
-//! kept with room.
+//! Bounds, u = 2^-24. A coordinate in the cluster's space is one difference and three products: a point x away from the frame's origin errs
+//! by at most 7 u |x|, a sum of two such by 8 u. Let E bound the edges of a triangle, R its corners and the view-samples, D the light
+//! samples and the view-samples, as lengths. The third edge, a difference, errs by 15 u E. Through its arguments f errs by less than
+//! (8 + 15 + 7) u E R D, through its evaluation at one segment by 11 u E R D; the bounds over a shaft are sums of at most eight parts,
+//! none above E R D, of five roundings each. In all that is less than 72 u E R D, and for one segment less than 45 u. N . (x - a) likewise errs by less than 48 u |g| |h| (R + D).
 
 use super::LANES;
 use super::candidates::Candidates;
@@ -20,9 +20,11 @@ use super::groups::{LightBox, Slanted};
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16};
 
 /// Bound on the error of f, as a share of E R D.
-pub const EDGE_ERROR: f32 = 96.0 * 5.960_464_5e-8;
+pub const EDGE_ERROR: f32 = 72.0 * 5.960_464_5e-8;
+/// The same for one segment, as a share of that for a shaft.
+pub const SEGMENT_SHARE: f32 = 45.0 / 72.0;
 /// Bound on the error of N . (x - a), as a share of |g| |h| (R + D).
-pub const PLANE_ERROR: f32 = 96.0 * 5.960_464_5e-8;
+pub const PLANE_ERROR: f32 = 48.0 * 5.960_464_5e-8;
 /// Bound on the error of a corner, and of its place beside a plane of the shaft, as a share of R.
 pub const CORNER_ERROR: f32 = 16.0 * 5.960_464_5e-8;
 /// What products of tiny numbers may lose.
@@ -71,21 +73,69 @@ pub struct Answer {
     pub views_wider: u16,
 }
 
-type Vector<S> = [f32x16<S>; 3];
+/// Three coordinates of sixteen points. What is done to them is written out: a closure that `array::map` calls would leave the
+/// instruction set that its caller was compiled for.
+pub type Vector<S> = [f32x16<S>; 3];
 
+/// a + b.
 #[inline(always)]
-pub(super) fn cross_scalar<S: Simd>(a: [f32; 3], b: Vector<S>) -> Vector<S> {
-    [b[2] * a[1] - b[1] * a[2], b[0] * a[2] - b[2] * a[0], b[1] * a[0] - b[0] * a[1]]
+pub fn plus<S: Simd>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
+/// a - b.
 #[inline(always)]
-pub(super) fn cross<S: Simd>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+pub fn minus<S: Simd>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// a - b for one point b.
+#[inline(always)]
+pub fn from<S: Simd>(a: Vector<S>, b: [f32; 3]) -> Vector<S> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Absolute coordinates.
+#[inline(always)]
+pub fn abs<S: Simd>(a: Vector<S>) -> Vector<S> {
+    [a[0].abs(), a[1].abs(), a[2].abs()]
+}
+
+/// a x b.
+#[inline(always)]
+pub fn cross<S: Simd>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
     [a[1].mul_sub(b[2], a[2] * b[1]), a[2].mul_sub(b[0], a[0] * b[2]), a[0].mul_sub(b[1], a[1] * b[0])]
 }
 
+/// a x b - c for one vector a.
 #[inline(always)]
-pub(super) fn dot_scalar<S: Simd>(a: [f32; 3], b: Vector<S>) -> f32x16<S> {
+fn cross_minus<S: Simd>(a: [f32; 3], b: Vector<S>, c: Vector<S>) -> Vector<S> {
+    let less = [b[2].mul_sub(a[1], c[0]), b[0].mul_sub(a[2], c[1]), b[1].mul_sub(a[0], c[2])];
+    [b[1].mul_add(-a[2], less[0]), b[2].mul_add(-a[0], less[1]), b[0].mul_add(-a[1], less[2])]
+}
+
+/// a . b for one vector a.
+#[inline(always)]
+pub fn dot_one<S: Simd>(a: [f32; 3], b: Vector<S>) -> f32x16<S> {
     b[0].mul_add(a[0], b[1].mul_add(a[1], b[2] * a[2]))
+}
+
+/// a . b.
+#[inline(always)]
+pub fn dot<S: Simd>(a: Vector<S>, b: Vector<S>) -> f32x16<S> {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
+
+/// Coordinates at `place..place + 16`.
+#[inline(always)]
+pub fn load<S: Simd>(simd: S, along: &[f32], place: usize) -> f32x16<S> {
+    f32x16::from_slice(simd, &along[place..place + LANES])
+}
+
+/// Where a point is across a side of this slope.
+#[inline(always)]
+fn beyond<S: Simd>(p: Vector<S>, axis: usize, slope: f32) -> f32x16<S> {
+    p[2].mul_add(-slope, p[axis])
 }
 
 #[inline(always)]
@@ -134,7 +184,7 @@ impl Shaft {
 
     #[inline(always)]
     fn light_spread<S: Simd>(&self, normal: Vector<S>) -> f32x16<S> {
-        dot_scalar(self.light_half, normal.map(|x| x.abs()))
+        dot_one(self.light_half, abs(normal))
     }
 
     /// Casters at `place..place + 16` that are not wholly beside the shaft.
@@ -145,12 +195,10 @@ impl Shaft {
         let mut beside = bits((low - far).simd_gt(self.depth[1])) | bits((high + far).simd_lt(self.depth[0]));
         for axis in 0..2 {
             let Side { slope, limit } = self.upper[axis];
-            let at = |p: Vector<S>| p[2].mul_add(-slope, p[axis]);
-            let nearest = at(a).min(at(b)).min(at(c));
+            let nearest = beyond(a, axis, slope).min(beyond(b, axis, slope)).min(beyond(c, axis, slope));
             beside |= bits(far.mul_add(-1.0 - slope.abs(), nearest).simd_gt(limit));
             let Side { slope, limit } = self.lower[axis];
-            let at = |p: Vector<S>| p[2].mul_add(-slope, p[axis]);
-            let nearest = at(a).max(at(b)).max(at(c));
+            let nearest = beyond(a, axis, slope).max(beyond(b, axis, slope)).max(beyond(c, axis, slope));
             beside |= bits(far.mul_add(1.0 + slope.abs(), nearest).simd_lt(limit));
         }
         beside
@@ -159,24 +207,23 @@ impl Shaft {
     /// What the casters at `place..place + 16` do; lanes of `lanes` only.
     #[inline(always)]
     pub fn meet<S: Simd>(&self, simd: S, list: &Candidates, place: usize, lanes: u16) -> Answer {
-        let row = |k: usize| f32x16::from_slice(simd, &list.rows[k][place..place + LANES]);
-        let a = [row(0), row(1), row(2)];
-        let g = [row(3), row(4), row(5)];
-        let h = [row(6), row(7), row(8)];
-        let (edge_error, plane_error, far) = (row(9), row(10), row(11));
-        let b = [0, 1, 2].map(|k| a[k] + g[k]);
-        let c = [0, 1, 2].map(|k| a[k] + h[k]);
+        let rows = &list.rows;
+        let a = [load(simd, &rows[0], place), load(simd, &rows[1], place), load(simd, &rows[2], place)];
+        let g = [load(simd, &rows[3], place), load(simd, &rows[4], place), load(simd, &rows[5], place)];
+        let h = [load(simd, &rows[6], place), load(simd, &rows[7], place), load(simd, &rows[8], place)];
+        let edge_error = load(simd, &rows[9], place);
+        let plane_error = load(simd, &rows[10], place);
+        let far = load(simd, &rows[11], place);
+        let (b, c) = (plus(a, g), plus(a, h));
         let lanes = lanes & !self.beside([a, b, c], far);
         if lanes == 0 {
             return Answer::default();
         }
-        let centre = self.views.centre;
-        let from = |p: Vector<S>| [0, 1, 2].map(|k| p[k] - centre[k]);
-        let (a, b) = (from(a), from(b));
+        let (a, b) = (from(a, self.views.centre), from(b, self.views.centre));
         // The caster's plane against both groups.
         let normal = cross(g, h);
-        let height = -(normal[0].mul_add(a[0], normal[1].mul_add(a[1], normal[2] * a[2])));
-        let light_height = dot_scalar(self.along, normal) + height;
+        let height = -dot(normal, a);
+        let light_height = dot_one(self.along, normal) + height;
         let spread = self.views_spread(normal) + plane_error;
         let light_spread = self.light_spread(normal) + plane_error;
         let below = bits((height + spread).simd_lt(0.0));
@@ -188,15 +235,17 @@ impl Shaft {
         let (mut all_positive, mut all_negative) = (u16::MAX, u16::MAX);
         let mut answer = Answer::default();
         let (mut through_views, mut through_light) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, 0.0));
-        let minus_h = h.map(|x| -x);
-        let between = [0, 1, 2].map(|k| h[k] - g[k]);
-        for (k, (base, edge)) in [(a, g), (b, between), (a, minus_h)].into_iter().enumerate() {
-            let m = cross(base, edge);
-            let middle = dot_scalar(self.along, m);
-            let turned = cross_scalar(self.along, edge);
-            let views = self.views_spread([0, 1, 2].map(|k| turned[k] - m[k]));
+        let zero = f32x16::splat(simd, 0.0);
+        let minus_h = [zero - h[0], zero - h[1], zero - h[2]];
+        let bases = [a, b, a];
+        let edges = [g, minus(h, g), minus_h];
+        for k in 0..3 {
+            let edge = edges[k];
+            let m = cross(bases[k], edge);
+            let middle = dot_one(self.along, m);
+            let views = self.views_spread(cross_minus(self.along, edge, m));
             let light = self.light_spread(m);
-            let rest = dot_scalar(self.cross, edge.map(|x| x.abs())) + edge_error;
+            let rest = dot_one(self.cross, abs(edge)) + edge_error;
             let spread = views + light + rest;
             let positive = bits((middle - spread).simd_gt(0.0));
             let negative = bits((middle + spread).simd_lt(0.0));

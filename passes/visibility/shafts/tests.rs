@@ -1,4 +1,5 @@
 use super::cpu::{Receivers, answer};
+use super::patches::Choice;
 use crate::shared::predicate::{Corners, blocks};
 use fearless_simd::Level;
 use shadowgraph_core::shared::{BACKGROUND, FACING_AWAY, KEPT, NO_TRIANGLE};
@@ -100,12 +101,18 @@ fn compare(
         triangle: &triangle,
         sample_state: &sample_state,
         image: [width, rows.len().div_ceil(width.max(1))],
+        patches: Choice::Auto,
     };
     let expected = brute_force(scene);
-    for level in [Level::new(), Level::baseline()] {
-        let (found, _) = answer(scene, level, &|_, _| {});
+    for (level, patches) in [
+        (Level::new(), Choice::Always),
+        (Level::new(), Choice::Off),
+        (Level::new(), Choice::Auto),
+        (Level::baseline(), Choice::Always),
+    ] {
+        let (found, _) = answer(Receivers { patches, ..scene }, level, &|_, _| {});
         let wrong = expected.iter().zip(&found).map(|(a, b)| (a ^ b).count_ones()).sum::<u32>();
-        assert_eq!(wrong, 0, "{what}, {level:?}: {} bits in all", expected.len() * 32);
+        assert_eq!(wrong, 0, "{what}, {level:?}, patches {patches:?}: {} bits in all", expected.len() * 32);
     }
     let words = light_samples.len().div_ceil(32);
     let kept = expected.chunks(words).zip(&sample_state).filter(|(_, state)| **state == KEPT);
@@ -318,6 +325,7 @@ fn nothing_that_casts_nothing_kept_and_no_light_sample() {
         triangle: &[3, 3],
         sample_state: &[KEPT, KEPT],
         image: [2, 1],
+        patches: Choice::Auto,
     };
     let masks = |scene: Receivers| answer(scene, Level::new(), &|_, _| {}).0;
     assert_eq!(masks(scene), [0, 0]);
@@ -344,6 +352,7 @@ fn many_equal_triangles_build_in_time_and_agree() {
         triangle: &[last, last],
         sample_state: &[KEPT, KEPT],
         image: [2, 1],
+        patches: Choice::Auto,
     };
     assert_eq!(answer(scene, Level::new(), &|_, _| {}).0, [1, 0]);
 }

@@ -1,0 +1,242 @@
+//! A shaft is narrowed to the casters that stay open; where some do, it is divided, and its smallest parts are tested.
+
+use super::cluster::{Scene, Worker};
+use super::groups::Range;
+use super::leaf::{Pair, open_lanes, test};
+use super::own::Verdict;
+use super::patches::{Choice, EDGES, FROM_ABOVE, FROM_BELOW, MIXED, SIFTED};
+use super::shaft::{Answer, SEGMENT_SHARE, Shaft, TINY};
+use super::{LANES, lanes_from};
+use crate::shared::predicate::blocks;
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, mask32x16, u32x16};
+
+/// Blocks of view-samples below which own triangles are asked about every candidate: patches need to know.
+const FEW: usize = 4;
+
+impl Worker {
+    /// Decides the shaft from `views` to `lights`, whose candidates are those from `start` on; they are still there afterwards.
+    pub fn divide<S: Simd>(&mut self, simd: S, scene: &Scene, views: Range, lights: Range, start: usize) {
+        let end = self.list.len;
+        self.counts.shafts += 1;
+        self.counts.met += (end - start) as u64;
+        let shaft = Shaft::new(self.slanted[views.node], self.boxes[lights.node]);
+        let narrowed = simd.vectorize(
+            #[inline(always)]
+            || self.narrow(simd, scene, &shaft, views, start),
+        );
+        match narrowed {
+            None => {
+                self.counts.covered += 1;
+                self.fill(views, lights);
+            }
+            Some(_) if self.list.len == end => self.counts.lit += 1,
+            Some(_) if scene.patches != Choice::Off && self.decide_patches(simd, scene, views, lights, end) => {
+                self.fill(views, lights);
+            }
+            Some(_) if self.list.len == end => self.counts.lit += 1,
+            Some(_)
+                if views.len() == 1
+                    && simd.vectorize(
+                        #[inline(always)]
+                        || self.sift(simd, views.first, lights, end),
+                    ) =>
+            {
+                self.counts.lit += 1;
+            }
+            Some(_) if views.len() == 1 && lights.len() == 1 => {
+                simd.vectorize(
+                    #[inline(always)]
+                    || self.leaf(simd, scene, views.first, lights.first, end),
+                );
+            }
+            Some(views_wider) => {
+                let left = self.list.len - end;
+                let by_views = lights.len() == 1 || (views.len() > 1 && 2 * views_wider > left);
+                let halves = if by_views { views.halves() } else { lights.halves() };
+                for half in halves {
+                    let (views, lights) = if by_views { (half, lights) } else { (views, half) };
+                    self.divide(simd, scene, views, lights, end);
+                }
+            }
+        }
+        self.list.len = end;
+    }
+
+    /// Puts the candidates from `start` on that stay open on the stack once more; how many are wider through the view-samples.
+    /// None when one covers the shaft.
+    #[inline(always)]
+    fn narrow<S: Simd>(&mut self, simd: S, scene: &Scene, shaft: &Shaft, views: Range, start: usize) -> Option<usize> {
+        let end = self.list.len;
+        self.list.reserve(end - start + LANES);
+        let mut views_wider = 0;
+        for place in (start..end).step_by(LANES) {
+            let answer = shaft.meet(simd, &self.list, place, lanes_from(end - place));
+            let mut keep = answer.open | answer.covers;
+            if keep == 0 {
+                continue;
+            }
+            let were = u32x16::from_slice(simd, &self.list.flags[place..place + LANES]) & MIXED;
+            let mut mixed = !(were.simd_eq(0).to_bitmask() as u16) & keep;
+            let mut left = mixed;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                let bit = 1 << lane;
+                left ^= bit;
+                // Own triangles are asked where the answer matters: the shaft would be done, or has few view-samples left.
+                if views.len() > FEW && answer.covers & bit == 0 {
+                    let slot = self.list.slot[place + lane] as usize;
+                    if self.slots[slot].verdict == Verdict::Open {
+                        continue;
+                    }
+                }
+                match self.judge_slot(scene, place + lane, views.node) {
+                    Verdict::Plain => mixed ^= bit,
+                    Verdict::Never => (mixed, keep) = (mixed ^ bit, keep ^ bit),
+                    Verdict::Mixed(_) | Verdict::Open => {}
+                }
+            }
+            if answer.covers & keep & !mixed != 0 {
+                return None;
+            }
+            let kept = u32x16::from_slice(simd, &self.list.flags[place..place + LANES]) & SIFTED;
+            let flags = flags(simd, &answer) | flag(simd, mixed, MIXED) | kept;
+            self.list.push_from(simd, place, keep, flags);
+            views_wider += (answer.views_wider & keep).count_ones() as usize;
+        }
+        Some(views_wider)
+    }
+
+    fn judge_slot(&mut self, scene: &Scene, place: usize, node: usize) -> Verdict {
+        let slot = self.list.slot[place] as usize;
+        if self.slots[slot].verdict == Verdict::Open {
+            let triangle = self.slots[slot].triangle;
+            self.slots[slot].verdict = self.own.judge_each(&scene.world, &self.list, place, triangle);
+        }
+        match self.slots[slot].verdict {
+            Verdict::Mixed(row) => self.own.judge_for(&self.owners[node], row),
+            other => other,
+        }
+    }
+
+    fn pair(&self, place: usize) -> Pair {
+        let flags = self.list.flags[place];
+        let side = i8::from(flags & FROM_BELOW != 0) - i8::from(flags & FROM_ABOVE != 0);
+        Pair {
+            caster: self.list.caster(place),
+            edge_error: SEGMENT_SHARE * self.list.rows[9][place] + TINY,
+            plane_error: self.list.rows[10][place],
+            // An edge's sign means nothing while that of the plane is open.
+            edges: if side == 0 { 0b111 } else { (flags & EDGES) as u8 },
+            side,
+        }
+    }
+
+    /// Takes casters near a block of view-samples off the list from `start` on where they cannot block any of them: a group's
+    /// bounds are wide beside what is as near as the group is large. True when none is left.
+    #[inline(always)]
+    fn sift<S: Simd>(&mut self, simd: S, view: usize, lights: Range, start: usize) -> bool {
+        let views = view * LANES;
+        let mut kept = start;
+        for place in start..self.list.len {
+            let flags = self.list.flags[place];
+            let is_near = flags & (FROM_BELOW | FROM_ABOVE) == 0 || flags & MIXED != 0;
+            if is_near && flags & SIFTED == 0 {
+                let [x, y, z] = &self.views.at;
+                let points = [&x[views..views + LANES], &y[views..views + LANES], &z[views..views + LANES]];
+                let mut open = open_lanes(simd, points, &self.boxes[lights.node], &self.pair(place));
+                if open != 0 && flags & MIXED != 0 {
+                    if let Verdict::Mixed(row) = self.slots[self.list.slot[place] as usize].verdict {
+                        open &= self.own.possible(row, views);
+                    }
+                }
+                if open == 0 {
+                    continue;
+                }
+                self.list.flags[place] |= SIFTED;
+            }
+            if kept != place {
+                self.list.copy(place, kept);
+            }
+            kept += 1;
+        }
+        self.list.len = kept;
+        kept == start
+    }
+
+    fn fill(&mut self, views: Range, lights: Range) {
+        let blocks = self.lights.root().last;
+        for view in views.first * LANES..views.last * LANES {
+            self.masks[view * blocks + lights.first..view * blocks + lights.last].fill(u16::MAX);
+        }
+    }
+
+    /// Decides every segment from one block of view-samples to one of light samples, for the candidates from `start` on.
+    #[inline(always)]
+    fn leaf<S: Simd>(&mut self, simd: S, scene: &Scene, view: usize, light: usize, start: usize) {
+        let (views, lights) = (view * LANES, light * LANES);
+        let [x, y, z] = &self.views.at;
+        let view_points = [&x[views..views + LANES], &y[views..views + LANES], &z[views..views + LANES]];
+        let [x, y, z] = &self.lights.at;
+        let light_points = [&x[lights..lights + LANES], &y[lights..lights + LANES], &z[lights..lights + LANES]];
+        let mut blocked = [0u16; LANES];
+        for place in start..self.list.len {
+            self.counts.tested += 1;
+            let flags = self.list.flags[place];
+            let pair = self.pair(place);
+            let mut found = test(simd, view_points, light_points, &pair);
+            let slot = self.slots[self.list.slot[place] as usize];
+            if let (Verdict::Mixed(row), true) = (slot.verdict, flags & MIXED != 0) {
+                let allowed = self.own.allowed(&scene.world, row, views, &self.lights.index[lights..lights + LANES]);
+                for j in 0..LANES {
+                    found.sure[j] &= allowed[j];
+                    found.may[j] &= allowed[j];
+                }
+            }
+            let (mut full, mut doubt) = (u16::MAX, 0);
+            for j in 0..LANES {
+                blocked[j] |= found.sure[j];
+                found.may[j] &= !blocked[j];
+                full &= blocked[j];
+                doubt |= found.may[j];
+            }
+            if full == u16::MAX {
+                break;
+            }
+            if doubt != 0 {
+                for (j, may) in found.may.iter().enumerate() {
+                    let light = scene.world.lights[self.lights.index[lights + j] as usize];
+                    for lane in (0..LANES).filter(|lane| may >> lane & 1 == 1) {
+                        self.counts.exact += 1;
+                        let row = self.views.index[views + lane] as usize;
+                        let own = scene.world.triangles.get(scene.triangle[row] as usize);
+                        let caster = &scene.world.triangles[slot.triangle as usize];
+                        let is_other = scene.triangle[row] != slot.triangle;
+                        let is_blocked = is_other && blocks(scene.position[row], own, caster, light);
+                        blocked[j] |= u16::from(is_blocked) << lane;
+                    }
+                }
+            }
+        }
+        let blocks = self.lights.root().last;
+        for lane in 0..LANES {
+            let mut bits = 0;
+            for (j, blocked) in blocked.iter().enumerate() {
+                bits |= (blocked >> lane & 1) << j;
+            }
+            self.masks[(views + lane) * blocks + light] = bits;
+        }
+    }
+}
+
+/// The flags of sixteen candidates.
+#[inline(always)]
+fn flags<S: Simd>(simd: S, answer: &Answer) -> u32x16<S> {
+    let [a, b, c] = answer.edge;
+    let edges = flag(simd, a, 1) | flag(simd, b, 2) | flag(simd, c, 4);
+    edges | flag(simd, answer.from_below, FROM_BELOW) | flag(simd, answer.from_above, FROM_ABOVE)
+}
+
+#[inline(always)]
+fn flag<S: Simd>(simd: S, lanes: u16, flag: u32) -> u32x16<S> {
+    mask32x16::from_bitmask(simd, u64::from(lanes)).select(u32x16::splat(simd, flag), u32x16::splat(simd, 0))
+}
