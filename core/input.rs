@@ -3,6 +3,7 @@
 use crate::array::Array;
 use crate::array::Element::{F32, U32};
 use crate::facts::Facts;
+use crate::light_plane::LightPlane;
 use crate::port::{Direction::Out, Port, Space};
 use crate::scene::{Camera, Light, Scene, flag};
 
@@ -166,17 +167,8 @@ pub fn facts(scene: &Scene, samples: &[[f32; 3]], view_samples_imported: bool) -
     }
 }
 
-/// Whether all points lie in one plane, within a millionth of their extent and the rounding of their coordinates: a light that is
-/// small beside its distance from the origin has no flatter points.
+/// Whether all points lie in one plane, as [`LightPlane`] tells.
 fn is_planar(samples: &[[f32; 3]]) -> bool {
-    let points: Vec<glam::DVec3> = samples.iter().map(|p| glam::Vec3::from(*p).as_dvec3()).collect();
-    let Some(&origin) = points.first() else { return true };
-    let far = points.iter().map(|p| *p - origin).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-    let far = far.unwrap_or_default();
-    let normal =
-        points.iter().map(|p| far.cross(*p - origin)).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-    let normal = normal.unwrap_or_default().normalize_or_zero();
-    // Each coordinate is off by half a unit in the last place, in the point itself and in the three that make the plane.
-    let rounding = 4.0 * f64::from(f32::EPSILON) * points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-    points.iter().all(|p| normal.dot(*p - origin).abs() <= 1e-6 * far.length() + rounding)
+    let plane = LightPlane::of(samples);
+    samples.iter().all(|sample| plane.has(*sample))
 }

@@ -11,6 +11,7 @@ pub mod cpu;
 pub mod facts;
 pub mod input;
 mod light;
+pub mod light_plane;
 pub mod metric;
 pub mod param;
 pub mod pass;

@@ -119,4 +119,4 @@ pub const LU: Port = Port::new(Out, "lu", U32, "lu", "K A B U Q").doc(
 pub const LU_LAYOUT: Port = Port::new(Out, "lu_layout", F32, "lu_layout", "16")
     .space(Space::World)
     .unit("scene units")
-    .doc("middle of the light, largest distance from it, and for a planar light its axes and normal, each padded to four");
+    .doc("middle of the light, largest distance from it, and for a planar light its axes, each padded to four, normal and offset along it");

@@ -5,8 +5,9 @@ use crate::gpu;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph_core::param::{Params, Value};
 use shadowgraph_core::pass::Pass;
-use shadowgraph_passes::shared::area_light_scenes::{SoftCase, add_table, soft, soft_planar};
-use shadowgraph_passes::shared::hard_scenes::{Inputs, output, random, run};
+use shadowgraph_core::shared::KEPT;
+use shadowgraph_passes::shared::area_light_scenes::{SoftCase, add_table, disc, soft, soft_planar, soft_tilted};
+use shadowgraph_passes::shared::hard_scenes::{Case, Inputs, Random, output, random, run};
 use shadowgraph_wgpu::Session;
 
 /// Share of wrong bits: light samples in the middle of casters' edges make determinants that are zero, but not in two floats.
@@ -83,10 +84,47 @@ fn exact(session: &Session, name: &'static str) -> Result<(), Failed> {
     check(name, wrong, bits, EXACT_SHARE)
 }
 
+/// All light samples at one height, and a level caster `ulps` above it: over the light the caster's plane has one value, next to zero.
+fn level(height: f32, ulps: i32) -> SoftCase {
+    let at = f32::from_bits(height.to_bits().wrapping_add_signed(ulps));
+    let r = &mut Random(7);
+    let mut case = Case {
+        triangles: [0.0, at].map(|y| [[-4.0, y, -4.0], [0.0, y, 6.0], [4.0, y, -4.0]]).to_vec(),
+        light: [0.0, height, 0.0],
+        position: (0..40).map(|_| [r.signed(), 0.0, r.signed()]).collect(),
+        triangle: vec![0; 40],
+        state: vec![KEPT; 40],
+        casts: vec![1; 2],
+        faces: Vec::new(),
+        side: 2,
+    };
+    case.look(false, false);
+    SoftCase { case, samples: (0..100).map(|_| [r.signed(), height, r.signed()]).collect() }
+}
+
+fn level_casters(session: &Session, name: &'static str) -> Result<(), Failed> {
+    for height in [1.0, 0.7, 3.0] {
+        for ulps in [-2, -1, 1, 2] {
+            let case = level(height, ulps);
+            let mut inputs = case.inputs(1);
+            add_table(&mut inputs, "certain_uncertain", 32);
+            let (outputs, _) = on_device(session, pass("visibility", name)?, 32, &inputs)?;
+            let wanted = case.mask();
+            assert!(wanted.iter().all(|word| (*word == 0) == (ulps > 0)), "what is above the light hides nothing");
+            let wrong = wrong_bits(output(&outputs, "mask").as_u32(), &wanted);
+            if wrong > 0 {
+                return Err(format!("{wrong} wrong bits under a caster {ulps} ulp above {height}").into());
+            }
+        }
+    }
+    Ok(())
+}
+
 fn look_ups(session: &Session, name: &'static str, table: &str) -> Result<(), Failed> {
     let (mut wrong, mut bits) = (0, 0);
-    for seed in 0..6 {
-        let case = soft_planar(60_000 + seed, 24, 70, [128, 200][seed as usize % 2]);
+    for seed in 0..8 {
+        let scene = [soft_planar, soft_tilted][seed as usize / 4];
+        let case = scene(60_000 + seed, 24, 70, [128, 200][seed as usize % 2]);
         let mut inputs = case.inputs(1);
         add_table(&mut inputs, table, 64);
         let pass = pass("visibility", name)?;
@@ -116,6 +154,29 @@ fn tables(session: &Session, table: &'static str, size: u32) -> Result<(), Faile
     Ok(())
 }
 
+/// Discs whose plane is not through the middle of their box: taken, and with the layout and table of the CPU.
+fn tilted(session: &Session) -> Result<(), Failed> {
+    let mut case = soft_planar(9, 4, 10, 1);
+    for (seed, count) in (0..).zip([3, 16, 64, 256]) {
+        for centre in [[3.0, 10.0, 2.0], [300.0, 1000.0, -200.0]] {
+            case.samples = disc(&mut Random(seed), centre, centre, 0.5, count);
+            let mut inputs = case.inputs(1);
+            let (outputs, counts) = on_device(session, pass("lu_table", "planar")?, 256, &inputs)?;
+            add_table(&mut inputs, "planar", 256);
+            let [found, wanted] = [&outputs, &inputs].map(|of| output(of, "lu_layout").as_f32().to_vec());
+            if counts[0] > 0 {
+                return Err(format!("{} of {count} light samples off the plane", counts[0]).into());
+            }
+            if wanted[15].abs() < 1e-3 || (found[15] - wanted[15]).abs() > 1e-6 * centre[1] {
+                return Err(format!("layouts {found:?} and {wanted:?}").into());
+            }
+            let (found, wanted) = (output(&outputs, "lu").as_u32(), output(&inputs, "lu").as_u32());
+            check("tilted", wrong_bits(found, wanted), 32 * wanted.len() as u64, 1e-3)?;
+        }
+    }
+    Ok(())
+}
+
 fn off_plane(session: &Session) -> Result<(), Failed> {
     let mut case = soft_planar(9, 4, 10, 50);
     case.samples[20][1] += 0.01 * (case.samples[1][0] - case.samples[0][0]).abs();
@@ -128,6 +189,8 @@ pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     for name in ["half_planes", "lu_certain"] {
         trials.push(gpu::trial(format!("area_lights/{name}"), move |session| exact(session, name)));
+        let run = move |session: &_| level_casters(session, name);
+        trials.push(gpu::trial(format!("area_lights/{name}/level"), run));
     }
     for (name, table) in [("lu", "angles_distance"), ("lu_planar", "planar")] {
         trials.push(gpu::trial(format!("area_lights/{name}"), move |session| look_ups(session, name, table)));
@@ -135,6 +198,7 @@ pub fn trials() -> Vec<Trial> {
     for (table, size) in [("angles_distance", 64), ("certain_uncertain", 32), ("planar", 256)] {
         trials.push(gpu::trial(format!("area_lights/table/{table}"), move |session| tables(session, table, size)));
     }
+    trials.push(gpu::trial("area_lights/table/planar/tilted".to_string(), tilted));
     trials.push(gpu::trial("area_lights/table/planar/refuses".to_string(), off_plane));
     trials
 }

@@ -10,15 +10,12 @@
 
 use crate::engine::Machine;
 use crate::job::Job;
+use crate::kept::Kept;
 use crate::outcome::Outcome;
-use shadowgraph_core::accumulation::{Accumulation, Standing};
-use shadowgraph_core::array::Array;
+use shadowgraph_core::accumulation::Standing;
 use shadowgraph_core::plan::Plan;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_cpu::Progress;
-
-/// Quantities that have a mean over light samples.
-pub(crate) const MEANS: &[&str] = &["radiance", "fraction", "light_share"];
 
 /// Runs `plan`, made for `job`, on `sets` disjoint sets of as many light samples as the job has. Times are
 /// those of all sets together.
@@ -33,12 +30,13 @@ pub fn converged(
     progress: &Progress,
 ) -> Result<Outcome, Problem> {
     let mut outcome = Outcome::new(plan);
-    let mut kept: Vec<Kept> = plan.slots.iter().map(|_| Kept::default()).collect();
+    let mut kept = Kept::of(plan);
     for (index, job) in job.in_sets(sets)?.enumerate() {
         let progress = |node: &str, done, total| progress(&format!("set {} of {sets}: {node}", index + 1), done, total);
         let mut one = machine.run(plan, &job, 1, &progress)?;
         for (slot, kept) in kept.iter_mut().enumerate() {
-            kept.add(plan.slots[slot].port.quantity, one.values.take(slot), index);
+            // Nothing moves between the runs.
+            kept.add(one.values.take(slot), Standing(0), index == 0);
         }
         outcome.add_run(one);
     }
@@ -48,27 +46,4 @@ pub fn converged(
         }
     }
     Ok(outcome)
-}
-
-/// What is left of one value after several runs.
-#[derive(Default)]
-struct Kept {
-    mean: Accumulation,
-    /// The first run's, until another run's differs.
-    same: Option<Array>,
-}
-
-impl Kept {
-    fn add(&mut self, quantity: &str, value: Option<Array>, run: usize) {
-        match value {
-            // Nothing moves between the runs.
-            Some(array) if MEANS.contains(&quantity) => _ = self.mean.add(Standing(0), &array),
-            value if run == 0 => self.same = value,
-            value => self.same = self.same.take().filter(|same| value.as_ref() == Some(same)),
-        }
-    }
-
-    fn value(self) -> Option<Array> {
-        self.mean.mean().or(self.same)
-    }
 }

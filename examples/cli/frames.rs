@@ -3,31 +3,25 @@
 //! Kept are means of pictures and of visible shares, and values that are the same in all frames (view-samples). Masks and all that
 //! depends on single light samples are left out. The mean begins anew with the first frame of another [`Standing`].
 
-use crate::converged::MEANS;
+use crate::kept::Kept;
 use crate::outcome::Outcome;
-use shadowgraph_core::accumulation::{Accumulation, Standing};
+use shadowgraph_core::accumulation::Standing;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::plan::{Plan, SlotId};
 
 /// Outcomes of the frames so far as one.
-pub struct Frames<'p> {
-    plan: &'p Plan,
+pub struct Frames {
     outcome: Outcome,
-    /// Where a value has a mean, by slot.
-    means: Vec<Option<Accumulation>>,
-    /// Of the other values, those that no frame has changed, by slot.
-    steady: Vec<Option<Array>>,
+    /// By slot.
+    kept: Vec<Kept>,
     count: u32,
     standing: Option<Standing>,
 }
 
-impl<'p> Frames<'p> {
+impl Frames {
     /// None yet.
-    pub fn new(plan: &'p Plan) -> Self {
-        let has_mean = |slot: SlotId| MEANS.contains(&plan.slots[slot].port.quantity);
-        let means = (0..plan.slots.len()).map(|slot| has_mean(slot).then(Accumulation::default)).collect();
-        let (steady, outcome) = (vec![None; plan.slots.len()], Outcome::new(plan));
-        Self { plan, outcome, means, steady, count: 0, standing: None }
+    pub fn new(plan: &Plan) -> Self {
+        Self { outcome: Outcome::new(plan), kept: Kept::of(plan), count: 0, standing: None }
     }
 
     /// Takes a frame in and returns how many frames the means are of.
@@ -35,17 +29,8 @@ impl<'p> Frames<'p> {
         if self.standing != Some(standing) {
             (self.standing, self.count) = (Some(standing), 0);
         }
-        for slot in 0..self.plan.slots.len() {
-            let value = frame.values.take(slot);
-            match (&mut self.means[slot], value) {
-                (Some(mean), Some(array)) => {
-                    mean.add(standing, &array);
-                }
-                (_, value) if self.count == 0 => self.steady[slot] = value,
-                (_, value) => {
-                    self.steady[slot] = self.steady[slot].take().filter(|first| value.as_ref() == Some(first))
-                }
-            }
+        for (slot, kept) in self.kept.iter_mut().enumerate() {
+            kept.add(frame.values.take(slot), standing, self.count == 0);
         }
         self.outcome.append_times(frame);
         self.count += 1;
@@ -54,13 +39,13 @@ impl<'p> Frames<'p> {
 
     /// The mean of the value in `slot`; none where it has none or there is no frame.
     pub fn mean(&self, slot: SlotId) -> Option<Array> {
-        self.means[slot].as_ref().and_then(Accumulation::mean)
+        self.kept[slot].mean()
     }
 
     /// Means and steady values as of one run, whose times are those of all frames.
     pub fn finish(mut self) -> Outcome {
-        for slot in 0..self.plan.slots.len() {
-            if let Some(array) = self.mean(slot).or(self.steady[slot].take()) {
+        for (slot, kept) in self.kept.into_iter().enumerate() {
+            if let Some(array) = kept.value() {
                 self.outcome.values.put(slot, array);
             }
         }

@@ -10,6 +10,7 @@ pub mod frames;
 pub mod graph_choice;
 pub mod jitter;
 pub mod job;
+mod kept;
 pub mod light_choice;
 pub mod npy;
 pub mod outcome;

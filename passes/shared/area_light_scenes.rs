@@ -2,6 +2,7 @@
 
 use super::hard_scenes::{Case, Inputs, Random, output, random, scan};
 use super::predicate::blocks;
+use glam::Vec3;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::param::{Params, Value};
@@ -53,6 +54,26 @@ pub fn soft_planar(seed: u64, triangle_count: usize, view_sample_count: usize, l
     };
     let samples = (0..light_sample_count).map(sample).collect();
     SoftCase { case, samples }
+}
+
+/// As [`soft`], with all light samples in a disc that is tilted about two axes.
+pub fn soft_tilted(seed: u64, triangle_count: usize, view_sample_count: usize, light_sample_count: usize) -> SoftCase {
+    let case = random(seed, triangle_count, view_sample_count);
+    let first = case.position.first().copied().unwrap_or_default();
+    let far = (0..3).map(|k| (case.light[k] - first[k]).abs()).fold(0.0, f32::max);
+    let samples = disc(&mut Random(seed), case.light, [0.3, 1.0, 0.2], 0.2 * far, light_sample_count);
+    SoftCase { case, samples }
+}
+
+/// Random points of a disc about `centre`.
+pub fn disc(r: &mut Random, centre: [f32; 3], normal: [f32; 3], radius: f32, count: usize) -> Vec<[f32; 3]> {
+    let (x, y) = Vec3::from(normal).normalize().any_orthonormal_pair();
+    let sample = |_| {
+        let turn = std::f32::consts::PI * r.signed();
+        let along = radius * (0.5 + 0.5 * r.signed()).sqrt();
+        (Vec3::from(centre) + along * (turn.cos() * x + turn.sin() * y)).to_array()
+    };
+    (0..count).map(sample).collect()
 }
 
 impl SoftCase {

@@ -100,7 +100,7 @@ impl Bvh {
             [low[0], low[1], low[2], END, high[0], high[1], high[2], leaf]
         };
         if self.nodes.is_empty() {
-            return vec![words(&Node { low: [f32::MAX; 3], high: [f32::MIN; 3], ..Node::default() }, 0)];
+            return vec![words(&Node { low: [f32::MAX; 3], high: [f32::MAX; 3], ..Node::default() }, 0)];
         }
         // A node, and the inner node at whose end it stands: there its subtree's end is known.
         let mut open = vec![(0u32, Vec::new())];

@@ -1,14 +1,15 @@
 //! Look-up tables from a plane to light samples: which bin a plane falls in, and what the words of a layout say.
 //!
-//! A plane is value(s) = n . s + d over offsets s from the middle of the light; a bit is set where the value is not below zero. With R
-//! the largest |s|, its coordinates are
+//! A plane is value(s) = n . s + d over offsets s from the middle of the light; a bit is set where the value is not below zero.
+//! With R the largest |s|, its coordinates are
 //!
 //! - theta = atan2(sqrt(nx^2 + ny^2), nz) in [0, pi], phi = atan2(ny, nx) in [-pi, pi] and t = d / (|n| R) in [-1, 1]; or
-//! - for a light in the plane of axes X and Y through the middle, phi = atan2(n.Y, n.X) and t = d / (|(n.X, n.Y)| R).
+//! - for a light in the plane of axes X and Y, at N . s = h along its normal N, phi = atan2(n.Y, n.X) and
+//!   t = (d + (n.N) h) / (|(n.X, n.Y)| R). The middle of a tilted light's box is off its plane by h.
 //!
-//! `size` bins of equal width along each, an even number: the opposite plane falls in the mirrored bin (theta and t from the other end,
-//! phi half a turn on), whose bits are the complement. Bins are counted along theta, phi, t, the last fastest; t past -1 or 1 takes no
-//! bin, for all light samples are on one side.
+//! `size` bins of equal width along each, an even number: the opposite plane falls in the mirrored bin (theta and t from the
+//! other end, phi half a turn on), whose bits are the complement. Bins are counted along theta, phi, t, the last fastest; t past
+//! -1 or 1 takes no bin, for all light samples are on one side.
 //!
 //! [`angle`] takes the place of atan2 on both backends and errs by less than [`ANGLE_ERROR`].
 
@@ -29,7 +30,8 @@ const PAST_END: f64 = 1e-4;
 /// Largest table the CPU functions make.
 pub const MOST_CPU_BYTES: u64 = 1 << 31;
 
-/// What `lu_layout` says. Words: middle xyz, R, axis X xyz, 0, axis Y xyz, 0, normal xyz, 0; the axes are zero but for planar lights.
+/// What `lu_layout` says. Words: middle xyz, R, axis X xyz, 0, axis Y xyz, 0, normal N xyz, h; all from the axes on are zero but
+/// for planar lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
     /// Middle of the light's box, world space.
@@ -38,6 +40,8 @@ pub struct Layout {
     pub radius: f32,
     /// X, Y and their normal for a planar light.
     pub axes: [[f32; 3]; 3],
+    /// h, from the middle to the plane of a planar light along its normal, scene units.
+    pub height: f32,
 }
 
 impl Layout {
@@ -47,13 +51,13 @@ impl Layout {
             (0..3).map(|k| (f64::from(sample[k]) - f64::from(light.middle[k])).powi(2)).sum::<f64>().sqrt()
         };
         let radius = light.samples.iter().map(far).fold(0.0, f64::max) as f32;
-        Self { middle: light.middle, radius, axes: [[0.0; 3]; 3] }
+        Self { middle: light.middle, radius, axes: [[0.0; 3]; 3], height: 0.0 }
     }
 
     /// From its words.
     pub fn from_words(words: &[f32]) -> Self {
         let vector = |start: usize| [words[start], words[start + 1], words[start + 2]];
-        Self { middle: vector(0), radius: words[3], axes: [4, 8, 12].map(vector) }
+        Self { middle: vector(0), radius: words[3], axes: [4, 8, 12].map(vector), height: words[15] }
     }
 
     /// Its words.
@@ -61,6 +65,7 @@ impl Layout {
         let [x, y, z] = self.middle;
         let mut words = vec![x, y, z, self.radius];
         words.extend(self.axes.iter().flat_map(|[x, y, z]| [*x, *y, *z, 0.0]));
+        words[15] = self.height;
         words
     }
 
@@ -150,13 +155,14 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// The bins of the planes that cut the light; `locate` gives the coordinates of a plane: bins before the last, length of the normal.
+    /// The bins of the planes that cut the light; `locate` gives of a plane's normal the bins before the last, its length, and what the
+    /// constant grows by.
     #[inline(always)]
-    pub fn of(planes: &Planes, radius: f32, size: usize, locate: impl Fn([f64; 3]) -> (usize, f64)) -> Self {
+    pub fn of(planes: &Planes, radius: f32, size: usize, locate: impl Fn([f64; 3]) -> (usize, f64, f64)) -> Self {
         let mut bins = Self { count: 0, bin: [0; 4], turned: [0; 4], is_outside: false };
         for k in (0..4).filter(|k| planes.cut[*k]) {
-            let (row, length) = locate(planes.normal[k]);
-            let (constant, reach) = (planes.constant[k], length * f64::from(radius));
+            let (row, length, shift) = locate(planes.normal[k]);
+            let (constant, reach) = (planes.constant[k] + shift, length * f64::from(radius));
             if constant.abs() >= reach * (1.0 + PAST_END) {
                 // An exact zero is inside, from whichever side it is seen.
                 bins.is_outside |= constant != 0.0 && (constant < 0.0) != planes.turned[k];
@@ -172,12 +178,12 @@ impl Bins {
 
     /// As [`Bins::of`], for a table over two angles and a distance.
     #[inline(always)]
-    pub fn angles_distance(planes: &Planes, radius: f32, size: usize) -> Self {
-        Self::of(planes, radius, size, |normal| {
+    pub fn angles_distance(planes: &Planes, layout: &Layout, size: usize) -> Self {
+        Self::of(planes, layout.radius, size, |normal| {
             let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
             let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
             let [theta, phi] = direction_bins(normal.map(|x| (x * inverse) as f32), size);
-            (theta * size + phi, length)
+            (theta * size + phi, length, 0.0)
         })
     }
 }

@@ -1,6 +1,7 @@
 //! The recipe that passes of stage `lu_table` share.
 
 use super::lu::{BLOCK, check_bytes};
+use shadowgraph_core::light_plane::{ROUNDING, SHARE};
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::{Bind, GpuCx, Target};
 use shadowgraph_core::shared::{GROUP, PRELUDE};
@@ -23,7 +24,7 @@ pub fn record_lu(cx: &mut GpuCx, pieces: &'static [&'static str], is_planar: boo
     // A pass without counters has no memory for them.
     let off_plane = if is_planar { Target::Counters } else { cx.scratch("off_plane", 1) };
     let layout = vec![
-        Bind::Uniform(vec![light_sample_count as u32, u32::from(is_planar)]),
+        Bind::Uniform(vec![light_sample_count as u32, u32::from(is_planar), SHARE.to_bits(), ROUNDING.to_bits()]),
         Bind::Read(Target::Port("light_samples")),
         Bind::ReadWrite(Target::Port("lu_layout")),
         Bind::ReadWrite(off_plane),

@@ -36,7 +36,7 @@ fn a_table_too_large_names_what_would_fit() {
 #[test]
 fn a_layout_survives_its_words() {
     let axes = [[1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [0.0, -0.8, 0.6]];
-    let layout = Layout { middle: [1.0, 2.0, 3.0], radius: 0.5, axes };
+    let layout = Layout { middle: [1.0, 2.0, 3.0], radius: 0.5, axes, height: 0.25 };
     assert_eq!(layout.to_words().len(), LAYOUT_WORDS);
     assert_eq!(Layout::from_words(&layout.to_words()), layout);
 }

@@ -21,6 +21,7 @@ pub mod light_frame;
 pub mod light_sides;
 pub mod lu;
 pub mod lu_fill;
+pub mod lu_look_up;
 pub mod lu_record;
 pub mod packed;
 pub mod pair_walk;

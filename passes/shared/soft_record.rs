@@ -81,3 +81,8 @@ pub fn record_soft(cx: &mut GpuCx, join: Join) -> Result<(), Problem> {
     record_share(cx, "soft_long_doubts", join.pieces, "soft_long_doubts", bind, doubtful);
     Ok(())
 }
+
+#[test]
+fn the_kernel_states_the_same_number_of_casters() {
+    assert!(include_str!("soft_join.wgsl").contains(&format!("const OWN_CASTERS: u32 = {OWN_CASTERS}u;")));
+}

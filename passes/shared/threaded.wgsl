@@ -2,7 +2,7 @@
 
 const BVH_END: u32 = 0xffffffffu;
 const LEAF_BITS: u32 = 3u;
-const SLAB_ERROR: f32 = 4e-7;
+const SLAB_ERROR: f32 = 6e-7;
 
 // Reciprocals of a direction; a component of zero counts as one too small to leave a slab it starts in.
 fn reciprocal(along: vec3<f32>) -> vec3<f32> {

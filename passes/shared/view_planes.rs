@@ -40,7 +40,6 @@ pub struct Planes {
 
 /// What a caster hides from a view-sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "lives on the stack for the length of one pair; a box would cost more")]
 pub enum Hidden {
     /// Nothing.
     Nothing,

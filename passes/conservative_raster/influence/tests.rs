@@ -137,3 +137,11 @@ fn the_light_side_of_a_slanted_roof_is_cut_off() {
     assert!(!cut.is_empty() && cut.iter().all(is_right), "{cut:?}");
     assert!(!cells(&soft, &params("quad", 4, false)).iter().all(is_right));
 }
+
+#[test]
+fn both_kernels_state_one_slack() {
+    // The second reads regions that the first made and widens their lines by the same.
+    let kernels = [include_str!("kernel.wgsl"), include_str!("../../shared/face_light.wgsl")];
+    let [one, other] = kernels.map(|text| text.lines().find(|line| line.starts_with("const SLACK: f32 = ")));
+    assert!(one.is_some() && one == other, "{one:?}, {other:?}");
+}

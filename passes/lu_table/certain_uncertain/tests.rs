@@ -3,6 +3,7 @@ use crate::shared::area_light_scenes::ball;
 use crate::shared::hard_scenes::Random;
 use crate::shared::light_box::LightBox;
 use crate::shared::lu::{Layout, bin, direction_bins};
+use crate::shared::lu_fill::CERTAIN_SLACK;
 
 #[test]
 fn certain_is_behind_and_impossible_is_not_for_every_plane_of_a_bin() {
@@ -37,4 +38,9 @@ fn certain_is_behind_and_impossible_is_not_for_every_plane_of_a_bin() {
     }
     println!("left open: {open_shares:?}");
     assert!(open_shares[1] < 0.12 && open_shares[2] < 0.6 * open_shares[1], "{open_shares:?}");
+}
+
+#[test]
+fn the_kernel_states_the_same_slack() {
+    assert!(include_str!("kernel.wgsl").contains(&format!("const SLACK: f32 = {CERTAIN_SLACK:e};")));
 }

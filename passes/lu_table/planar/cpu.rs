@@ -6,29 +6,16 @@ use crate::shared::lu_fill::{Rows, fill, first_inside, opposite_line};
 use glam::DVec3;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::cpu::CpuCx;
+use shadowgraph_core::light_plane::LightPlane;
 use shadowgraph_core::problem::{Kind, Problem};
 
-/// How far off its plane a light sample may lie, of R.
-const OFF_PLANE: f64 = 1e-6;
-
-/// Axes of the plane of `samples`, and how many lie off it.
-pub fn plane(samples: &[[f32; 3]], layout: &Layout) -> ([[f32; 3]; 3], usize) {
-    let middle = DVec3::from(layout.middle.map(f64::from));
-    let offsets: Vec<DVec3> = samples.iter().map(|sample| DVec3::from(sample.map(f64::from)) - middle).collect();
-    // The first of the longest, as the kernel takes it.
-    let longest = |vectors: &mut dyn Iterator<Item = DVec3>| {
-        vectors.fold(DVec3::ZERO, |best, one| if one.length_squared() > best.length_squared() { one } else { best })
-    };
-    let far = longest(&mut offsets.iter().copied());
-    let x = far.try_normalize().unwrap_or(DVec3::X);
-    // A light that is a segment lies in many planes: any will do.
-    let any = x.cross(if x.x.abs() > 0.5 { DVec3::Y } else { DVec3::X }).normalize();
-    let across = longest(&mut offsets.iter().map(|offset| x.cross(*offset)));
-    let normal = if across.length() > OFF_PLANE * far.length() { across.normalize() } else { any };
-    // One of two.
-    let normal = if normal.dot(any) < 0.0 { -normal } else { normal };
-    let off = offsets.iter().filter(|offset| offset.dot(normal).abs() > OFF_PLANE * far.length()).count();
-    ([x, normal.cross(x), normal].map(|axis| axis.as_vec3().to_array()), off)
+/// Gives `layout` the plane of `samples`; how many lie off it.
+pub fn fit(layout: &mut Layout, samples: &[[f32; 3]]) -> usize {
+    let plane = LightPlane::of(samples);
+    let axes = [plane.axis, plane.normal.cross(plane.axis), plane.normal];
+    layout.axes = axes.map(|axis| axis.as_vec3().to_array());
+    layout.height = plane.offset_from(DVec3::from(layout.middle.map(f64::from))) as f32;
+    samples.iter().filter(|sample| !plane.has(**sample)).count()
 }
 
 /// The table's words.
@@ -50,7 +37,7 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let shape = [samples.len().div_ceil(BLOCK), size, size, 1, 4];
     check_bytes(&shape, MOST_CPU_BYTES)?;
     let mut layout = Layout::new(&LightBox::new(samples));
-    let (axes, off) = plane(samples, &layout);
+    let off = fit(&mut layout, samples);
     if off > 0 {
         return Err(Problem::new(Kind::BadValue, "a table over lines needs a planar light")
             .port("light_samples")
@@ -60,7 +47,6 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
                 "use lu_table=angles_distance with visibility=lu, or guard this pass with the fact light_is_planar",
             ));
     }
-    layout.axes = axes;
     cx.put("lu", Array::u32(shape, table(samples, &layout, size)));
     let words = layout.to_words();
     cx.put("lu_layout", Array::f32([words.len()], words));

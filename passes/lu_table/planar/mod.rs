@@ -1,12 +1,13 @@
 //! `planar`: for every bin of an angle and an offset of a line in the light's plane, the light samples on its inner side.
 //!
-//! Sintorn, Eisemann, Assarsson 2008, section 4.2, for planar lights, as Eisemann, Decoret 2007: a plane through a view-sample and an
-//! edge matters only by the line where it meets the light's plane. In: `light_samples [L 3]` world, all in one plane. Out:
-//! `lu [K size size 1 4]`, `lu_layout [16]` with the plane's axes, K = ceil(L / 128). Coordinates and bins are those of
-//! [`crate::shared::lu`].
+//! Sintorn, Eisemann, Assarsson 2008, section 4.2, for planar lights, as Eisemann, Decoret 2007: a plane through a view-sample
+//! and an edge matters only by the line where it meets the light's plane. In: `light_samples [L 3]` world, all in one plane. Out:
+//! `lu [K size size 1 4]`, `lu_layout [16]` with the plane's axes and its offset from the middle of the light's box, K = ceil(L /
+//! 128). Coordinates and bins are those of [`crate::shared::lu`].
 //!
-//! Light samples further than a millionth of the light's extent from one plane are refused: the fact `light_is_planar` guards this pass in
-//! `choose`. Mirrored bins hold complements, bit for bit. Takes K size^2 16 bytes.
+//! Light samples off the plane are refused, by the measure of the fact `light_is_planar`, which guards this pass in `choose`
+//! ([`shadowgraph_core::light_plane`]); a GPU allows twice as much for its own rounding. Mirrored bins hold complements, bit for
+//! bit. Takes K size^2 16 bytes.
 
 mod cpu;
 mod gpu;

@@ -1,5 +1,6 @@
 use super::PASS;
-use super::cpu::{plane, table};
+use super::cpu::{fit, table};
+use crate::shared::area_light_scenes::disc;
 use crate::shared::hard_scenes::{Random, run};
 use crate::shared::light_box::LightBox;
 use crate::shared::lu::{Layout, bin, line_bin};
@@ -18,9 +19,7 @@ fn square(count: usize) -> Vec<[f32; 3]> {
 
 fn layout_of(samples: &[[f32; 3]]) -> Layout {
     let mut layout = Layout::new(&LightBox::new(samples));
-    let (axes, off) = plane(samples, &layout);
-    assert_eq!(off, 0);
-    layout.axes = axes;
+    assert_eq!(fit(&mut layout, samples), 0);
     layout
 }
 
@@ -61,8 +60,26 @@ fn a_light_that_is_not_planar_is_refused() {
 
 #[test]
 fn a_segment_and_a_point_are_planar() {
-    let segment: Vec<[f32; 3]> = (0..9).map(|k| [k as f32, 2.0 * k as f32, 1.0]).collect();
-    assert_eq!(plane(&segment, &Layout::new(&LightBox::new(&segment))).1, 0);
-    let point = [[1.0, 2.0, 3.0]];
-    assert_eq!(plane(&point, &Layout::new(&LightBox::new(&point))).1, 0);
+    layout_of(&(0..9).map(|k| [k as f32, 2.0 * k as f32, 1.0]).collect::<Vec<_>>());
+    layout_of(&[[1.0, 2.0, 3.0]]);
+}
+
+#[test]
+fn a_disc_tilted_about_two_axes_is_planar_though_not_through_the_middle_of_its_box() {
+    for (seed, count) in (0..).zip([3, 16, 64, 256]) {
+        for centre in [[3.0, 10.0, 2.0], [3000.0, 1e4, -2000.0]] {
+            let samples = disc(&mut Random(seed), centre, centre, 0.5, count);
+            let layout = layout_of(&samples);
+            assert!(layout.height.abs() > 1e-4, "{layout:?}");
+            // All of them at the layout's height, but for the rounding of coordinates.
+            for sample in &samples {
+                let offset = layout.offset(*sample).map(|x| x * layout.radius);
+                let height = (0..3).map(|k| layout.axes[2][k] * offset[k]).sum::<f32>();
+                assert!(
+                    (height - layout.height).abs() < 1e-6 + 4.0 * f32::EPSILON * centre[1],
+                    "{height} in {layout:?}"
+                );
+            }
+        }
+    }
 }

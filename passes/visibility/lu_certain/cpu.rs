@@ -26,7 +26,7 @@ impl PairTest for LookUp<'_> {
         for k in 0..4 {
             firm.cut[k] &= planes.slack[k] <= FIRM * planes.range[k];
         }
-        (Bins::angles_distance(&firm, self.0.layout.radius, self.0.size), Sides::new(planes, light))
+        (Bins::angles_distance(&firm, &self.0.layout, self.0.size), Sides::new(planes, light))
     }
 
     #[inline(always)]

@@ -6,8 +6,8 @@
 // Largest error of a direction, and of a distance over R, that is looked up; the table's slack is above it by far.
 const FIRM: f32 = 3e-5;
 
-// What the table is sure of, and by arithmetic what it leaves open. Where a light sample comes within rounding of a plane, the pair is left
-// to another kernel.
+// What the table is sure of, and by arithmetic what it leaves open. Where a light sample comes within rounding of a plane, the
+// pair is left to another kernel.
 fn hidden_block(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, block: u32, receiver: Receiver, light: Light) -> Found {
     let sides = sides_of(pair, a, b, c, receiver, light);
     if sides.is_nothing {
@@ -20,6 +20,8 @@ fn hidden_block(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, block: u32
         // Scaled to places in the light's box; back to offsets. Flat boxes have no normal along their short axes.
         let normal = select(vec3<f32>(0.0), scaled.xyz / light.half, light.half > vec3<f32>(0.0));
         if all(scaled.xyz == vec3<f32>(0.0)) {
+            // The same all over the light: 2 where it does not cut, at most 1 where rounding hides its sign.
+            certain = select(certain, vec4<u32>(0u), scaled.w <= 1.0);
             continue;
         }
         let size = length(normal);

@@ -15,7 +15,9 @@ fn hidden_block(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, block: u32
         if !pair.cut[k] && pair.winding != 0.0 {
             continue;
         }
-        let plane = ordered_plane(k, winding, a, b, c, receiver, light);
+        var plane = ordered_plane(k, winding, a, b, c, receiver, light);
+        // The table counts from the light's plane.
+        plane.constant += dot(plane.normal, axis(12u)) * lu_layout[15];
         let line = vec2<f32>(dot(plane.normal, axis(4u)), dot(plane.normal, axis(8u)));
         let reach = length(line) * lu_layout[3];
         let side = whole_side(plane, reach);

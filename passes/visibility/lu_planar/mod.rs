@@ -1,19 +1,21 @@
-//! `lu_planar`: per view-sample of a planar light, the planes of every caster that its cell lists looked up in a table of light samples.
+//! `lu_planar`: per view-sample of a planar light, the planes of every caster that its cell lists looked up in a table of light
+//! samples.
 //!
-//! Sintorn, Eisemann, Assarsson 2008, section 4.2, as Eisemann, Decoret 2007 for planar lights: the light samples behind the planes of the view-sample and the caster's edges come out of
-//! `lu` as bit patterns, 128 at a time; their AND is what the caster hides, and casters combine by OR.
+//! Sintorn, Eisemann, Assarsson 2008, section 4.2, as Eisemann, Decoret 2007 for planar lights: the light samples behind the
+//! planes of the view-sample and the caster's edges come out of `lu` as bit patterns, 128 at a time; their AND is what the caster
+//! hides, and casters combine by OR.
 //!
 //! In: `triangles [T 3 3]` world, `caster_state [T]`, `light_samples [L 3]` world, `position [P 3]` world, `triangle [P]`,
 //! `sample_state [P]`, `cell [P]`, lists of view-samples (`list_offset`, `list_entries`) and of casters (`caster_offset`,
 //! `caster_entries`) by cell, `lu [K A A 1 4]` and `lu_layout [16]` of `lu_table/planar`.
 //! Out: `mask [P ceil(L/32)]`, bit set = blocked; all bits set for a view-sample facing away, none for background.
 //!
-//! An approximation: a plane takes the bits of the middle line of the bin that its line in the light's plane falls in. Planes that leave the whole light on one side are not looked up and
-//! not wrong. No crack opens at a shared edge: both neighbours look up the edge with its ends in one order and complement the bits
-//! ([`crate::shared::view_planes`]).
+//! An approximation: a plane takes the bits of the middle line of the bin that its line in the light's plane falls in. Planes
+//! that leave the whole light on one side are not looked up and not wrong. No crack opens at a shared edge: both neighbours look
+//! up the edge with its ends in one order and complement the bits ([`crate::shared::view_planes`]).
 //!
-//! Errors: another table, or none. Departs from the paper in a fourth look-up, of the supporting plane where it cuts the light, without which
-//! a caster beyond the light would block it; and own planes follow the coplanar rule.
+//! Errors: another table, or none. Departs from the paper in a fourth look-up, of the supporting plane where it cuts the light,
+//! without which a caster beyond the light would block it; and own planes follow the coplanar rule.
 
 mod cpu;
 mod gpu;

@@ -12,11 +12,13 @@ use rayon::prelude::*;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::input;
-use shadowgraph_core::problem::Problem;
+use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::shared::{BACKGROUND, KEPT};
 
 /// View-samples of a rayon task.
 const CHUNK_ROWS: usize = 1024;
+/// Most memory that maps take.
+const MOST_BYTES: u64 = 1 << 31;
 
 /// What the masks are a function of.
 #[derive(Clone, Copy)]
@@ -90,6 +92,27 @@ pub fn answer(
     (masks, behind)
 }
 
+/// Refuses maps of `at_once` light samples that take more than [`MOST_BYTES`].
+///
+/// # Errors
+/// Names needed and available bytes, and what to set to what.
+pub fn check_bytes(face_count: usize, side: u32, at_once: usize) -> Result<(), Problem> {
+    let faces = face_count.max(1) as u64;
+    let bytes = (4 * faces * u64::from(side).pow(2)).saturating_mul(at_once as u64);
+    if bytes <= MOST_BYTES {
+        return Ok(());
+    }
+    let (name, most) = match at_once {
+        0 | 1 => (super::SIZE.name, (MOST_BYTES / (4 * faces)).isqrt()),
+        _ => (super::MEMORY.name, MOST_BYTES >> 20),
+    };
+    Err(Problem::new(Kind::Unsupported, "the shadow maps are too large")
+        .port(name)
+        .expected(format!("at most {MOST_BYTES} bytes"))
+        .found(format!("{bytes} bytes for {at_once} x {faces} maps of {side} x {side} texels"))
+        .remedy(format!("set `{name}` to {most} or less")))
+}
+
 /// The pass.
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let faces = faces(cx.input(ports::LIGHT_FRAME.name).as_f32());
@@ -102,9 +125,10 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
         normal: cx.input(ports::NORMAL.name).as_vec3(),
         sample_state: cx.input(ports::SAMPLE_STATE.name).as_u32(),
     };
-    let side = cx.params().u32(super::SIZE.name) as usize;
+    let side = cx.params().u32(super::SIZE.name);
     let at_once = super::at_once(cx.params(), faces.len());
-    let (masks, behind) = answer(scene, side, at_once, super::lookup(cx.params()), cx.progress());
+    check_bytes(faces.len(), side, at_once.min(scene.light_samples.len()))?;
+    let (masks, behind) = answer(scene, side as usize, at_once, super::lookup(cx.params()), cx.progress());
     let shape = [scene.position.len(), mask_words(scene.light_samples.len())];
     cx.put(ports::MASK.name, Array::u32(shape, masks));
     cx.count(super::BEHIND.name, behind);

@@ -2,13 +2,16 @@
 //! the sum of point lights), as masks: one comparison decides one bit.
 //!
 //! In: `triangles [T 3 3]` world, `caster_state [T]` (1: casts), `light_samples [L 3]` world, any L, `light_frame [F 20]`,
-//! `position [P 3]` world, `normal [P 3]` world, `sample_state [P]`. Out: `mask [P ceil(L/32)]`, bit set = blocked; all bits set for
-//! a view-sample facing away, unused ones too, none for background.
+//! `position [P 3]` world, `normal [P 3]` world, `sample_state [P]`. Out: `mask [P ceil(L/32)]`, bit set = blocked; all bits set
+//! for a view-sample facing away, unused ones too, none for background.
 //!
 //! Every light sample looks along the axes of `light_frame` from where it is, through windows fitted to the view-samples as it
 //! sees them: with one light sample these are the faces of `light_frame: fitted`, or `six_faces`, and the answer is that of the
 //! single shadow map, bit for bit. Maps take `4 F size^2` bytes a light sample; they are drawn and looked up in ranges of as many
-//! light samples as `memory` holds, into one depth target.
+//! light samples as `memory` holds, into one depth target. More than 2 GiB at a time on the CPU is an error that names what fits.
+//!
+//! Where a frame is run in ranges of view-samples, windows are fitted to each range's view-samples: its texels are finer than
+//! those of the whole frame, and bits at shadow borders may differ from those of one run.
 //!
 //! Errors are those of a shadow map: steps of a texel's width at shadow borders, casters thinner than a texel, and biases
 //! ([`crate::shared::shadow_lookup`]). What falls outside a map is lit. `behind` counts pairs that a single face cannot place.

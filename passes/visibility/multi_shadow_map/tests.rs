@@ -1,4 +1,4 @@
-use super::cpu::{Scene, answer};
+use super::cpu::{Scene, answer, check_bytes};
 use super::{PASS, at_once, ranges};
 use crate::shared::light_fit;
 use crate::shared::light_frame::Face;
@@ -134,4 +134,20 @@ fn memory_does_not_grow_with_the_light_samples() {
     assert_eq!((draws, dispatches), (4096, 3 + 512));
     assert_eq!([at_once(&Params::defaults(PASS.params), 1), at_once(&Params::defaults(PASS.params), 6)], [32, 5]);
     assert_eq!(recipe(1).0.iter().find(|scratch| scratch.label == "maps").unwrap().shape, [1, 1024, 1024]);
+}
+
+#[test]
+fn maps_that_do_not_fit_are_refused_with_what_would() {
+    assert!(check_bytes(1, 1024, 32).is_ok() && check_bytes(2, 16_384, 1).is_ok());
+    let problem = check_bytes(6, 16_384, 1).unwrap_err().to_string();
+    assert!(
+        problem.contains("at most 2147483648 bytes") && problem.contains("set `size` to 9459 or less"),
+        "{problem}"
+    );
+    check_bytes(6, 9459, 1).unwrap();
+    let problem = check_bytes(1, 8192, 32).unwrap_err().to_string();
+    assert!(
+        problem.contains("found 8589934592 bytes") && problem.contains("set `memory` to 2048 or less"),
+        "{problem}"
+    );
 }

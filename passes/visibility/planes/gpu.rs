@@ -61,3 +61,8 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     }
     Ok(())
 }
+
+#[test]
+fn the_kernel_states_the_same_number_of_casters() {
+    assert!(include_str!("kernel.wgsl").contains(&format!("const OWN_CASTERS: u32 = {OWN_CASTERS}u;")));
+}

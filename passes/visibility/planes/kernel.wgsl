@@ -1,6 +1,7 @@
-// Joined after predicate and pyramid. First the planes of every caster, once; then the view-samples. Which of four ways a view-sample goes depends on the casters of its cell: tested by one
-// invocation; by workgroups that share them out; and once more, likewise, where f32 left a doubt. So no invocation comes near the
-// loop limit. Software rasterisers run both sides of every branch, so the costly decision is kept out of the common loop.
+// Joined after predicate and pyramid. First the planes of every caster, once; then the view-samples. Which of four ways a
+// view-sample goes depends on the casters of its cell: tested by one invocation; by workgroups that share them out; and once
+// more, likewise, where f32 left a doubt. So no invocation comes near the loop limit. Software rasterisers run both sides of
+// every branch, so the costly decision is kept out of the common loop.
 struct Numbers {
     triangles: u32,
     samples: u32,
