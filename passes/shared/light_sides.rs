@@ -38,8 +38,9 @@ impl Sides {
             // Rounding of the constant, which slack may lift above the range, is bounded by the last two terms.
             let slack = EVALUATED_ERROR * (planes.range[k] + planes.slack[k]) + planes.slack[k];
             let scale = if planes.turned[k] { -1.0 } else { 1.0 } / slack;
-            sides.normal[sides.count] =
-                [0, 1, 2].map(|axis| (planes.normal[k][axis] * light.half[axis] * scale) as f32);
+            let [x, y, z] = planes.normal[k];
+            let along = |n: f64, half: f64| (n * half * scale) as f32;
+            sides.normal[sides.count] = [along(x, light.half[0]), along(y, light.half[1]), along(z, light.half[2])];
             sides.constant[sides.count] = (planes.constant[k] * scale) as f32;
             sides.count += 1;
         }

@@ -172,6 +172,8 @@ struct Walk<'a> {
     /// The mask in the order of the light samples.
     restored: Vec<u32>,
     own: OwnSides,
+    /// Of the pair at hand.
+    planes: Planes,
     counts: Counts,
 }
 
@@ -244,7 +246,7 @@ impl<'a> Walk<'a> {
     fn new(soft: &'a Soft<'a>) -> Self {
         let none = vec![0; soft.light.words()];
         let own = OwnSides { own: NO_TRIANGLE, whole: 0, plus: none.clone(), minus: none.clone() };
-        Self { soft, mask: none.clone(), restored: none, own, counts: Counts::default() }
+        Self { soft, mask: none.clone(), restored: none, own, planes: Planes::EMPTY, counts: Counts::default() }
     }
 
     /// The view-samples `rows` against their casters.
@@ -285,13 +287,12 @@ impl<'a> Walk<'a> {
         self.counts.pairs += 1;
         let corners = &soft.triangles[caster as usize];
         let light = &soft.light;
-        let planes = match hidden(corners, soft.position[row], light) {
+        let mut ready = match hidden(corners, soft.position[row], light, &mut self.planes) {
             Hidden::Nothing => return false,
             Hidden::All => None,
-            Hidden::Within(planes) => Some(planes),
+            Hidden::Within => Some(test.ready(&self.planes, light)),
         };
-        self.counts.cut_pairs += u64::from(planes.is_some());
-        let mut ready = planes.as_ref().map(|planes| test.ready(planes, light));
+        self.counts.cut_pairs += u64::from(ready.is_some());
         let mut pair = Pair { caster: corners, position: soft.position[row], light, exact: 0 };
         let (mut on, mut full) = (None, true);
         for word in 0..self.mask.len() {

@@ -46,7 +46,7 @@ pub enum Hidden {
     /// The whole light.
     All,
     /// What is inside the planes that cut it.
-    Within(Planes),
+    Within,
 }
 
 fn minus(a: [f32; 3], b: [f32; 3]) -> [f64; 3] {
@@ -59,7 +59,8 @@ fn before(a: [f32; 3], b: [f32; 3]) -> bool {
 }
 
 impl Planes {
-    const EMPTY: Self = Self {
+    /// To be filled.
+    pub const EMPTY: Self = Self {
         normal: [[0.0; 3]; 4],
         constant: [0.0; 4],
         slack: [0.0; 4],
@@ -81,11 +82,11 @@ impl Planes {
     }
 }
 
-/// What `caster` hides of `light` from `position`, as far as bounds can tell.
+/// What `caster` hides of `light` from `position`, as far as bounds can tell; `planes` are set where it is a part.
 #[inline(always)]
-pub fn hidden(caster: &Corners, position: [f32; 3], light: &LightBox) -> Hidden {
+pub fn hidden(caster: &Corners, position: [f32; 3], light: &LightBox, planes: &mut Planes) -> Hidden {
     let [a, b, c] = *caster;
-    let corners = caster.map(|corner| minus(corner, position));
+    let corners = [minus(a, position), minus(b, position), minus(c, position)];
     let lines = [minus(b, a), minus(c, a)];
     let normal = cross(lines[0], lines[1]);
     let across = size(lines[0]) * size(lines[1]);
@@ -99,7 +100,6 @@ pub fn hidden(caster: &Corners, position: [f32; 3], light: &LightBox) -> Hidden 
     }
     let reach = light.half.iter().sum::<f64>();
     let from_light = minus(light.middle, a);
-    let mut planes = Planes::EMPTY;
     let slack = ERROR * across * (size(from_light) + reach);
     if !planes.set(3, light, normal, dot(normal, from_light), slack, winding < 0.0) {
         return Hidden::Nothing;
@@ -117,7 +117,7 @@ pub fn hidden(caster: &Corners, position: [f32; 3], light: &LightBox) -> Hidden 
             return Hidden::Nothing;
         }
     }
-    if planes.cut == [false; 4] { Hidden::All } else { Hidden::Within(planes) }
+    if planes.cut == [false; 4] { Hidden::All } else { Hidden::Within }
 }
 
 /// A plane's sides of the light: -1 or 1 where all of it is on one, 0 where both sides or neither may be.

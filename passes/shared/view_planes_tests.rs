@@ -3,10 +3,10 @@ use super::*;
 const CASTER: Corners = [[-1.0, 1.0, -1.0], [1.0, 1.0, -1.0], [0.0, 1.0, 1.0]];
 
 fn kind(position: [f32; 3], samples: &[[f32; 3]]) -> &'static str {
-    match hidden(&CASTER, position, &LightBox::new(samples)) {
+    match hidden(&CASTER, position, &LightBox::new(samples), &mut { Planes::EMPTY }) {
         Hidden::Nothing => "nothing",
         Hidden::All => "all",
-        Hidden::Within(_) => "within",
+        Hidden::Within => "within",
     }
 }
 
@@ -28,9 +28,10 @@ fn neighbours_at_an_edge_share_its_plane_and_have_opposite_signs() {
     let light = LightBox::new(&light);
     let other = [CASTER[1], CASTER[0], [0.0, 1.3, -3.0]];
     let position = [0.05, 0.0, -0.9];
-    let planes = |caster| match hidden(caster, position, &light) {
-        Hidden::Within(planes) => planes,
-        found => unreachable!("{found:?}"),
+    let planes = |caster| {
+        let mut planes = Planes::EMPTY;
+        assert_eq!(hidden(caster, position, &light, &mut planes), Hidden::Within);
+        planes
     };
     let (one, two) = (planes(&CASTER), planes(&other));
     assert_eq!((one.normal[0], one.constant[0]), (two.normal[0], two.constant[0]));

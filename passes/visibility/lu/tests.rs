@@ -33,7 +33,7 @@ fn few_bits_are_wrong_and_fewer_with_a_larger_table() {
 fn fan(r: &mut Random, centre: [f32; 3], parts: usize) -> Vec<[[f32; 3]; 3]> {
     let rim: Vec<[f32; 3]> = (0..parts)
         .map(|part| {
-            let turn = std::f32::consts::TAU * (part as f32 + 0.2 * r.signed()) / parts as f32;
+            let turn = std::f32::consts::TAU * (part as f32 + 0.1 * r.signed()) / parts as f32;
             [centre[0] + 9.0 * turn.cos(), 1.0 + 0.3 * r.signed(), centre[2] + 9.0 * turn.sin()]
         })
         .collect();
