@@ -3,8 +3,9 @@
 //! A caster whose plane divides a shaft's view-samples from its light samples has one facing for all of them. Casters of one facing
 //! that share an edge make a patch. How many casters of a patch a segment meets can only change where a segment meets an edge that
 //! does not lead on: a silhouette, an open border, an edge of three triangles. Where no segment of the shaft meets such an edge, the
-//! patch blocks all of them or none, and one segment tells which. A triangle across an edge that is not among the shaft's
-//! candidates meets none of its segments, so none meets that edge either; but one that own triangles hold back is a border.
+//! patch blocks all of them or none, and one segment tells which: the shaft's bounds hold a way from each segment to any other. A
+//! triangle across an edge that the bounds have left out meets nothing within them, nor does that edge; but one that own triangles
+//! hold back, or that only the cones of single view-samples miss, is a border.
 //!
 //! On hair and leaves hardly a patch lacks borders, and looking for one is half of the work. A cluster therefore keeps an account:
 //! candidates joined are paid for, those that a patch saved the parts of its shaft are gained.
@@ -210,8 +211,11 @@ impl Worker {
                     } else {
                         patches.open[place] = true;
                     }
-                } else if across != OUT && self.slots[across as usize].verdict != Verdict::Plain {
-                    // It may have left because of own triangles, not because no segment meets it.
+                } else if across != OUT
+                    && (flags[place] & SIFTED != 0 || self.slots[across as usize].verdict != Verdict::Plain)
+                {
+                    // It may have left because of own triangles, or because the view-samples' own cones miss it: the way from one
+                    // segment of the shaft to another may meet it all the same.
                     patches.open[place] = true;
                 }
             }
