@@ -70,6 +70,15 @@ pub struct Slot {
     pub triangle: u32,
     /// What own triangles make of it.
     pub verdict: Verdict,
+    /// Left a list because the cones of single view-samples miss it.
+    pub is_sifted: bool,
+}
+
+impl Slot {
+    /// Whether it leaves a list only where the bounds of a shaft leave it out.
+    pub fn is_plain(&self) -> bool {
+        self.verdict == Verdict::Plain && !self.is_sifted
+    }
 }
 
 /// What a thread keeps from cluster to cluster.
@@ -175,7 +184,7 @@ impl Worker {
                 self.list.copy(place, kept);
                 self.list.slot[kept] = self.slots.len() as u32;
                 self.list.flags[kept] = if verdict == Verdict::Plain { 0 } else { MIXED };
-                self.slots.push(Slot { triangle, verdict });
+                self.slots.push(Slot { triangle, verdict, is_sifted: false });
                 kept += 1;
             }
         }

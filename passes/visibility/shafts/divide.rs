@@ -144,11 +144,13 @@ impl Worker {
                 let [x, y, z] = &self.views.at;
                 let points = [&x[views..views + LANES], &y[views..views + LANES], &z[views..views + LANES]];
                 let mut open = open_lanes(simd, points, &self.boxes[lights.node], &self.pair(place));
-                let verdict = self.slots[self.list.slot[place] as usize].verdict;
+                let slot = &mut self.slots[self.list.slot[place] as usize];
+                let verdict = slot.verdict;
                 if let (Verdict::Mixed(row), true) = (verdict, flags & MIXED != 0) {
                     open &= self.own.possible(row, views);
                 }
                 if open == 0 {
+                    slot.is_sifted = true;
                     continue;
                 }
                 self.list.flags[place] |= SIFTED;

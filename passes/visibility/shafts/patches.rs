@@ -14,7 +14,6 @@ use super::LANES;
 use super::cluster::{Scene, Slot, Worker};
 use super::groups::{LightBox, Range, Slanted};
 use super::neighbours::NONE;
-use super::own::Verdict;
 use super::shaft::Shaft;
 use crate::shared::predicate::blocks;
 use fearless_simd::Simd;
@@ -211,9 +210,7 @@ impl Worker {
                     } else {
                         patches.open[place] = true;
                     }
-                } else if across != OUT
-                    && (flags[place] & SIFTED != 0 || self.slots[across as usize].verdict != Verdict::Plain)
-                {
+                } else if across != OUT && !self.slots[across as usize].is_plain() {
                     // It may have left because of own triangles, or because the view-samples' own cones miss it: the way from one
                     // segment of the shaft to another may meet it all the same.
                     patches.open[place] = true;
