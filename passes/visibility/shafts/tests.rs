@@ -371,8 +371,8 @@ fn sides(low: [f32; 3], high: [f32; 3]) -> Vec<Corners> {
 
 #[test]
 fn view_samples_on_a_box_and_in_it_are_not_decided_by_one_segment() {
-    // From inside, the far side blocks the light; from the top, whose triangles are own or level with it, nothing does. Single cones
-    // miss the top, so it leaves the list, and yet the way from an inner segment to an upper one leads through it.
+    // From inside, the far side blocks the light; from the top, whose triangles are own or level with it, nothing does: one segment
+    // must not speak for both kinds.
     for seed in 0..24 {
         let mut random = Random(400 + seed);
         let high = [0.6 + 0.3 * random.next(), 0.2 + 0.5 * random.next(), 0.9];
