@@ -1,32 +1,44 @@
-//! Writes every chart and page of the synthetic set into a folder, to be looked at: `cargo run --example charts_demo -- out`.
+//! Writes the pages of the synthetic set into a folder, to be looked at: `cargo run -p shadowgraph-charts --example charts_demo -- out`.
 
 use shadowgraph_charts::front::front;
-use shadowgraph_charts::metric::{FRAME_FIGURES, Metric};
-use shadowgraph_charts::model::{Point, Stability};
-use shadowgraph_charts::style::Styles;
-use shadowgraph_charts::svg::bars::{Bars, bars};
-use shadowgraph_charts::svg::scatter::{Scatter, scatter};
-use shadowgraph_charts::svg::sequence::{Lines, lines};
+use shadowgraph_charts::metric::Metric;
+use shadowgraph_charts::page::{self, Options};
+use shadowgraph_charts::{csv, files};
+use std::path::PathBuf;
 
 mod synthetic;
 
-fn main() -> std::io::Result<()> {
-    let out = std::path::PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "out/charts_demo".into()));
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let out = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "out/charts_demo".into()));
     std::fs::create_dir_all(&out)?;
-    let points = synthetic::points();
-    let stages = points.iter().flat_map(|p| p.nodes.iter().map(|n| (n.stage.as_str(), n.millis)));
-    let styles = Styles::new(points.iter().map(|p| p.graph.as_str()), stages).backends(points.iter().map(|p| p.backend.as_str()));
-    let some: Vec<&Point> = points.iter().filter(|p| p.scene == "sponza").collect();
-    let metric = Metric::named("rmse_penumbra").unwrap();
-    let front = front(&some, metric);
-    let s = scatter(&Scatter { title: "sponza · overview", points: &some, metric, front: &front, styles: &styles, with_legend: true });
-    std::fs::write(out.join("scatter.svg"), s.svg)?;
-    std::fs::write(out.join("bars.svg"), bars(&Bars { title: "sponza", points: &some, styles: &styles }).svg)?;
-    let stab = synthetic::stabilities();
-    for scene in ["contact", "hairball", "columns", "thin"] {
-        let some: Vec<&Stability> = stab.iter().filter(|p| p.scene == scene).collect();
-        let l = lines(&Lines { title: scene, records: &some, figure: &FRAME_FIGURES[1], styles: &styles, with_legend: true });
-        std::fs::write(out.join(format!("lines_{scene}.svg")), l.svg)?;
+    let options = |title| Options {
+        title,
+        about: "Invented figures in the shape of real ones: nothing here was measured.",
+        picture: &|name| Ok(png(name)),
+        pictures_max_bytes: 8 << 20,
+        front: &front,
+    };
+    let page = page::charts(&synthetic::points(), &options("Synthetic suite: milliseconds against error"))?;
+    std::fs::write(out.join("charts.html"), page.html)?;
+    let page = page::stability(&synthetic::stabilities(), &options("Synthetic suite: stability"))?;
+    std::fs::write(out.join("stability.html"), page.html)?;
+    let metrics: Vec<_> = Metric::named("rmse_penumbra").into_iter().collect();
+    let files = files::charts(&synthetic::points(), &metrics, &front);
+    for (name, text) in files.into_iter().chain(files::stability(&synthetic::stabilities())) {
+        std::fs::write(out.join(name), text)?;
     }
+    std::fs::write(out.join("points.csv"), csv::points(&synthetic::points()))?;
+    println!("{}", out.display());
     Ok(())
+}
+
+fn png(name: &str) -> Vec<u8> {
+    let (side, pixels) = synthetic::picture(name);
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, side as u32, side as u32);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&pixels).expect("pixels");
+    writer.finish().expect("a picture");
+    bytes
 }

@@ -1,5 +1,6 @@
 //! Colour and shape of a method, and colour of a stage: the same in every chart of a page, told apart without seeing colour.
 
+use crate::model::{Point, Stability};
 use std::collections::BTreeSet;
 
 /// `[light, dark]` backgrounds. Okabe and Ito 2008 without yellow, which a white page swallows.
@@ -90,6 +91,22 @@ impl Styles {
             stages: totals.into_iter().map(|(stage, _)| stage.into()).collect(),
             backends: Vec::new(),
         }
+    }
+
+    /// For all of these points.
+    pub fn of_points(points: &[Point]) -> Self {
+        let nodes = points.iter().flat_map(|point| &point.nodes);
+        let styles = Self::new(
+            points.iter().map(|point| point.graph.as_str()),
+            nodes.map(|node| (node.stage.as_str(), node.millis)),
+        );
+        styles.backends(points.iter().map(|point| point.backend.as_str()))
+    }
+
+    /// For all of these records.
+    pub fn of_stabilities(records: &[Stability]) -> Self {
+        let styles = Self::new(records.iter().map(|record| record.graph.as_str()), []);
+        styles.backends(records.iter().map(|record| record.backend.as_str()))
     }
 
     /// With these backends: marks of the first by name are filled, all others hollow.

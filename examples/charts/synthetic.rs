@@ -305,7 +305,8 @@ fn stability(case: &Case, method: &Method) -> Stability {
         _ => 9,
     };
     let not_run = scene == "hairball" && method.graph == "soft_lu";
-    let geometric = first.max(last) > 100.0 * first.min(last);
+    let geometric =
+        !matches!(sequence, Sequence::LightOrbit | Sequence::CameraPan | Sequence::OpeningMeshes | Sequence::Still);
     let frame = |index: usize| {
         let share = index as f64 / (count.max(2) - 1) as f64;
         let value = match geometric {

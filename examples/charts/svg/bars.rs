@@ -2,7 +2,7 @@
 
 use super::Chart;
 use super::axis::Axis;
-use super::canvas::{Anchor, Canvas, LETTER, px};
+use super::canvas::{Anchor, Canvas, LETTER, WIDTH, px};
 use crate::model::{NodeCost, Point};
 use crate::number::{count, figure};
 use crate::style::{STAGE_COLOURS, Styles};
@@ -18,7 +18,6 @@ pub struct Bars<'a> {
     pub styles: &'a Styles,
 }
 
-const WIDTH: f64 = 760.0;
 const ROW: f64 = 20.0;
 const BAR: f64 = 14.0;
 const RIGHT: f64 = WIDTH - 92.0;
@@ -49,7 +48,7 @@ pub fn bars(spec: &Bars) -> Chart {
     }
     let frame = |point: &Point| point.millis.map(|time| time.median).filter(|median| median.is_finite());
     let letters = rows.iter().map(|(point, _)| point.label.chars().count()).max().unwrap_or(0);
-    let left = (letters as f64 * LETTER + 30.0).clamp(120.0, 300.0);
+    let left = (letters as f64 * LETTER + 36.0).clamp(100.0, 250.0);
     let mut ends: Vec<f64> = rows.iter().map(|(point, total)| total.max(frame(point).unwrap_or(0.0))).collect();
     ends.sort_by(f64::total_cmp);
     let cut = ends.get(ends.len() / 2).map_or(1.0, |middle| middle * LONGEST);

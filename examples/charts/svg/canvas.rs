@@ -11,8 +11,11 @@ const GRID: &str = "#e4e4e4";
 const AXIS: &str = "#8c8c8c";
 pub const PAPER: &str = "#ffffff";
 
-/// Mean width of a letter of the 12-unit text, generous: fonts differ from reader to reader.
-pub const LETTER: f64 = 6.4;
+/// Width of a chart: narrow enough that a telephone shows it whole and readable.
+pub const WIDTH: f64 = 640.0;
+
+/// Mean width of a letter of the 12-unit text in a wide font (DejaVu Sans): fonts differ from reader to reader.
+pub const LETTER: f64 = 7.2;
 
 /// An SVG document in the making. Units are those of its view box.
 pub struct Canvas {

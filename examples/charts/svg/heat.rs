@@ -16,8 +16,8 @@ pub struct Cell {
     pub tooltip: String,
 }
 
-/// Colour of a cell, as attribute for light pages and class for dark ones.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Colour of a cell, as attribute for light pages and class for dark ones; what is graver is greater.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Standing {
     /// Nothing is known.
     #[default]

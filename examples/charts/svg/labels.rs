@@ -6,6 +6,7 @@ use super::canvas::{Anchor, LETTER};
 #[derive(Default)]
 pub struct Taken {
     boxes: Vec<[f64; 4]>,
+    marks: Vec<[f64; 2]>,
 }
 
 /// Half of a mark, with a little air.
@@ -17,26 +18,40 @@ impl Taken {
     /// A mark at this place.
     pub fn mark(&mut self, [x, y]: [f64; 2]) {
         self.boxes.push([x - MARK, y - MARK, x + MARK, y + MARK]);
+        self.marks.push([x, y]);
     }
 
-    /// The least crowded place for `text` around a mark, within `bounds` (left, top, right, bottom): where to anchor it.
-    pub fn place(&mut self, [x, y]: [f64; 2], text: &str, bounds: [f64; 4]) -> ([f64; 2], Anchor) {
+    /// A line through these places: names may cross it, but rather do not.
+    pub fn line(&mut self, places: &[[f64; 2]]) {
+        for pair in places.windows(2) {
+            let [[x, y], [to_x, to_y]] = [pair[0], pair[1]];
+            let steps = ((to_x - x).abs().max((to_y - y).abs()) / 4.0).ceil().max(1.0);
+            for step in 0..=steps as usize {
+                let share = step as f64 / steps;
+                let [x, y] = [x + (to_x - x) * share, y + (to_y - y) * share];
+                self.boxes.push([x - 1.5, y - 1.5, x + 1.5, y + 1.5]);
+            }
+        }
+    }
+
+    /// The least crowded place for `text` around a mark, within `bounds` (left, top, right, bottom): where to anchor it, and
+    /// whether it is so far away that a line should lead there.
+    pub fn place(&mut self, [x, y]: [f64; 2], text: &str, bounds: [f64; 4]) -> ([f64; 2], Anchor, bool) {
         let width = text.chars().count() as f64 * LETTER;
-        let candidates = [
-            ([x + 10.0, y - 7.0], Anchor::Start),
-            ([x + 10.0, y + 15.0], Anchor::Start),
-            ([x - 10.0, y - 7.0], Anchor::End),
-            ([x - 10.0, y + 15.0], Anchor::End),
-            ([x + 12.0, y + 4.0], Anchor::Start),
-            ([x - 12.0, y + 4.0], Anchor::End),
-            ([x, y - 11.0], Anchor::Middle),
-            ([x, y + 21.0], Anchor::Middle),
-            ([x + 16.0, y - 20.0], Anchor::Start),
-            ([x + 16.0, y + 28.0], Anchor::Start),
-            ([x - 16.0, y - 20.0], Anchor::End),
-            ([x - 16.0, y + 28.0], Anchor::End),
-        ];
-        let boxed = |([x, y], anchor): ([f64; 2], Anchor)| {
+        let around = |away: f64| {
+            [
+                ([x + away, y - 0.7 * away], Anchor::Start, away),
+                ([x + away, y + 0.7 * away + 8.0], Anchor::Start, away),
+                ([x - away, y - 0.7 * away], Anchor::End, away),
+                ([x - away, y + 0.7 * away + 8.0], Anchor::End, away),
+                ([x + away + 2.0, y + 4.0], Anchor::Start, away),
+                ([x - away - 2.0, y + 4.0], Anchor::End, away),
+                ([x, y - away - 1.0], Anchor::Middle, away),
+                ([x, y + away + 11.0], Anchor::Middle, away),
+            ]
+        };
+        let candidates = [10.0, 18.0, 30.0, 46.0, 66.0, 90.0].into_iter().flat_map(around);
+        let boxed = |[x, y]: [f64; 2], anchor| {
             let left = match anchor {
                 Anchor::Start => x,
                 Anchor::Middle => x - width / 2.0,
@@ -44,17 +59,34 @@ impl Taken {
             };
             [left, y - LINE + 3.0, left + width, y + 3.0]
         };
-        let cost = |candidate: ([f64; 2], Anchor)| {
-            let area = boxed(candidate);
+        // Units of area: far away costs as much as hiding a few letters of a line.
+        let cost = |at, anchor, away: f64| {
+            let area = boxed(at, anchor);
             let covered: f64 = self.boxes.iter().map(|other| overlap(area, *other)).sum();
-            covered + 10.0 * (width * LINE - overlap(area, bounds))
+            // A name that lies as near to another mark seems to be that one's.
+            let own = distance(area, [x, y]);
+            let others = self.marks.iter().filter(|mark| **mark != [x, y]);
+            let mistaken = others.filter(|mark| distance(area, **mark) < own + 5.0).count() as f64;
+            covered + 10.0 * (width * LINE - overlap(area, bounds)) + 60.0 * mistaken + 1.5 * away
         };
-        let costs = candidates.map(|candidate| (cost(candidate), candidate));
-        let best = costs.into_iter().reduce(|best, next| if next.0 < best.0 - 0.5 { next } else { best });
-        let (_, best) = best.unwrap_or((0.0, candidates[0]));
-        self.boxes.push(boxed(best));
-        best
+        let mut best = ([x, y], Anchor::Start, 0.0);
+        let mut least = f64::MAX;
+        for (at, anchor, away) in candidates {
+            let cost = cost(at, anchor, away);
+            if cost < least {
+                (best, least) = ((at, anchor, away), cost);
+            }
+        }
+        let (at, anchor, away) = best;
+        self.boxes.push(boxed(at, anchor));
+        (at, anchor, away > 16.0)
     }
+}
+
+fn distance([left, top, right, bottom]: [f64; 4], [x, y]: [f64; 2]) -> f64 {
+    let across = (left - x).max(x - right).max(0.0);
+    let down = (top - y).max(y - bottom).max(0.0);
+    across.hypot(down)
 }
 
 fn overlap(a: [f64; 4], b: [f64; 4]) -> f64 {
@@ -85,7 +117,7 @@ mod tests {
     #[test]
     fn names_stay_on_the_paper() {
         let mut taken = Taken::default();
-        let ([x, _], anchor) = taken.place([390.0, 100.0], "shadow_map 2048", [0.0, 0.0, 400.0, 300.0]);
+        let ([x, _], anchor, _) = taken.place([390.0, 100.0], "shadow_map 2048", [0.0, 0.0, 400.0, 300.0]);
         assert!(anchor == Anchor::End && x < 390.0);
     }
 }

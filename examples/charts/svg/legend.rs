@@ -1,7 +1,8 @@
 //! Methods by mark and name, in rows.
 
 use super::canvas::{Anchor, Canvas, LETTER};
-use crate::style::Styles;
+use crate::markup::Markup;
+use crate::style::{METHOD_COLOURS, Styles};
 
 const ROW: f64 = 20.0;
 
@@ -45,9 +46,12 @@ fn rows<'a>(methods: &[&'a str], width: f64) -> Vec<Vec<&'a str>> {
     rows
 }
 
-/// A method's mark alone, for tables and text.
+/// A method's mark alone, to stand in HTML text.
 pub fn mark(styles: &Styles, method: &str) -> String {
-    let mut canvas = Canvas::new(14.0, 14.0, "");
-    canvas.mark([7.0, 7.0], styles, method, false, "");
-    canvas.finish()
+    let colour = styles.colour(method);
+    let (class, path) = (format!("m{colour} f"), format!("M7 7{}", styles.shape(method)));
+    let mut markup = Markup::default();
+    markup.open("svg", &[("class", "mark"), ("viewBox", "0 0 14 14"), ("aria-hidden", "true")]);
+    markup.leaf("path", &[("class", &class), ("d", &path), ("fill", METHOD_COLOURS[colour][0])]).close();
+    markup.finish()
 }

@@ -2,7 +2,7 @@
 
 use super::Chart;
 use super::axis::Axis;
-use super::canvas::{Anchor, Canvas};
+use super::canvas::{Anchor, Canvas, WIDTH};
 use super::labels::Taken;
 use super::legend;
 use crate::front::Front;
@@ -28,7 +28,6 @@ pub struct Scatter<'a> {
     pub with_legend: bool,
 }
 
-const WIDTH: f64 = 760.0;
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = WIDTH - 18.0;
 const TOP: f64 = 62.0;
@@ -158,12 +157,14 @@ fn draw(canvas: &mut Canvas, spec: &Scatter, marks: &[Mark], across: &Axis, boun
     }
     let mut taken = Taken::default();
     marks.iter().for_each(|mark| taken.mark(mark.place));
+    taken.line(&steps);
     for series in series(marks) {
         let method = series[0].point.graph.as_str();
         canvas.markup.open("g", &[("data-m", method)]).line();
         let path: Vec<[f64; 2]> = series.iter().map(|mark| mark.place).collect();
         if path.len() > 1 && series[0].point.quality_axis.is_some() {
             canvas.method_path(&path, spec.styles, method, "1.6");
+            taken.line(&path);
         }
         for mark in series {
             let ends = mark.point.millis.map_or([mark.millis; 2], |time| [time.low, time.high]);
@@ -174,8 +175,11 @@ fn draw(canvas: &mut Canvas, spec: &Scatter, marks: &[Mark], across: &Axis, boun
         canvas.markup.close().line();
     }
     for mark in on {
-        let (place, anchor) = taken.place(mark.place, &mark.point.label, bounds);
+        let (place, anchor, is_far) = taken.place(mark.place, &mark.point.label, bounds);
         canvas.markup.open("g", &[("data-m", &mark.point.graph)]);
+        if is_far {
+            canvas.axis_line(mark.place, [place[0], place[1] - 4.0]);
+        }
         let halo =
             [("class", "halo"), ("stroke", super::canvas::PAPER), ("stroke-width", "3"), ("paint-order", "stroke")];
         canvas.styled_text(place[0], place[1], anchor, &mark.point.label, &halo);

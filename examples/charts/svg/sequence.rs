@@ -2,7 +2,7 @@
 
 use super::Chart;
 use super::axis::Axis;
-use super::canvas::{Anchor, Canvas};
+use super::canvas::{Anchor, Canvas, WIDTH};
 use super::legend;
 use crate::metric::FrameFigure;
 use crate::model::{Stability, Verdict};
@@ -24,16 +24,16 @@ pub struct Lines<'a> {
     pub with_legend: bool,
 }
 
-const WIDTH: f64 = 760.0;
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = WIDTH - 18.0;
 const TOP: f64 = 60.0;
 const BOTTOM: f64 = TOP + 240.0;
-const RAIL: f64 = 20.0;
+/// Distance of methods beside each other on the rail of zero.
+const LANE: f64 = 9.0;
 /// Marks on a line at most, besides its worst frame.
 const MARKS: usize = 16;
-/// An axis is logarithmic when its figures span more than this.
-const WIDE: f64 = 50.0;
+/// An axis is logarithmic when its largest figure is more than this above the middle one: even steps are not.
+const WIDE: f64 = 10.0;
 
 /// The chart; every record is in it or among those not shown.
 pub fn lines(spec: &Lines) -> Chart {
@@ -56,11 +56,16 @@ pub fn lines(spec: &Lines) -> Chart {
     }
     let values = || drawn.iter().flat_map(|(_, frames)| frames.iter().map(|[value, _]| *value));
     let figures = || drawn.iter().flat_map(|(_, frames)| frames.iter().map(|[_, y]| *y));
-    let has_zero = figures().any(|y| y <= 0.0);
-    let foot = BOTTOM + if has_zero { RAIL } else { 0.0 };
+    let lanes: Vec<&str> = drawn
+        .iter()
+        .filter(|(_, frames)| frames.iter().any(|[_, y]| *y <= 0.0))
+        .map(|(record, _)| record.id.as_str())
+        .collect();
+    let rail = if lanes.is_empty() { 0.0 } else { 10.0 + lanes.len() as f64 * LANE };
+    let foot = BOTTOM + rail;
     let thresholds = || drawn.iter().filter(|(r, _)| r.judged_by == spec.figure.name).filter_map(|(r, _)| r.threshold);
     let above_zero = thresholds().filter(|threshold| *threshold > 0.0);
-    let up = Axis::log(figures().chain(above_zero), [BOTTOM - 6.0, TOP + 6.0], BOTTOM + RAIL / 2.0);
+    let up = Axis::log(figures().chain(above_zero), [BOTTOM - 6.0, TOP + 6.0], BOTTOM + rail / 2.0);
     let across = across(values().collect());
     let mut methods: Vec<&str> = drawn.iter().map(|(record, _)| record.graph.as_str()).collect();
     methods.sort_by_key(|method| spec.styles.method(method));
@@ -79,9 +84,9 @@ pub fn lines(spec: &Lines) -> Chart {
     if figures().any(|y| y > 0.0) {
         canvas.axis_beside(&up, [LEFT, RIGHT], 7);
     }
-    if has_zero {
+    if !lanes.is_empty() {
         canvas.dashed_line([LEFT, BOTTOM], [RIGHT, BOTTOM]);
-        canvas.bold(LEFT - 7.0, BOTTOM + RAIL / 2.0 + 4.0, Anchor::End, "0");
+        canvas.bold(LEFT - 7.0, BOTTOM + rail / 2.0 + 4.0, Anchor::End, "0");
     }
     let mut seen: Vec<f64> = Vec::new();
     for threshold in thresholds().filter(|threshold| *threshold > 0.0) {
@@ -100,7 +105,9 @@ pub fn lines(spec: &Lines) -> Chart {
     let caption = unit.map_or(parameter.into(), |unit| format!("{parameter}, {unit}"));
     canvas.muted((LEFT + RIGHT) / 2.0, foot + 34.0, Anchor::Middle, &caption);
     for (record, frames) in &drawn {
-        draw(&mut canvas, spec, record, frames, [&across, &up]);
+        let lane = lanes.iter().position(|id| *id == record.id).unwrap_or(0) as f64;
+        let offset = (lane - (lanes.len() as f64 - 1.0) / 2.0) * LANE;
+        draw(&mut canvas, spec, record, frames, [&across, &up], offset);
     }
     if spec.with_legend {
         legend::draw(&mut canvas, &methods, spec.styles, [LEFT, foot + 58.0]);
@@ -111,10 +118,11 @@ pub fn lines(spec: &Lines) -> Chart {
 
 /// Logarithmic where the parameter spans decades above zero; a zero among them gets a place left of the rest.
 fn across(values: Vec<f64>) -> Axis {
-    let positive: Vec<f64> = values.iter().copied().filter(|value| *value > 0.0).collect();
-    let low = positive.iter().copied().fold(f64::MAX, f64::min);
-    let high = positive.iter().copied().fold(0.0, f64::max);
-    let is_log = values.iter().all(|value| *value >= 0.0) && high > WIDE * low;
+    let mut positive: Vec<f64> = values.iter().copied().filter(|value| *value > 0.0).collect();
+    positive.sort_by(f64::total_cmp);
+    let middle = positive.get(positive.len() / 2).copied().unwrap_or(0.0);
+    let high = positive.last().copied().unwrap_or(0.0);
+    let is_log = values.iter().all(|value| *value >= 0.0) && high > WIDE * middle;
     if is_log && positive.len() < values.len() {
         Axis::log(values, [LEFT + 44.0, RIGHT - 8.0], LEFT + 14.0).with_zero_tick()
     } else if is_log {
@@ -124,8 +132,17 @@ fn across(values: Vec<f64>) -> Axis {
     }
 }
 
-fn draw(canvas: &mut Canvas, spec: &Lines, record: &Stability, frames: &[[f64; 2]], [across, up]: [&Axis; 2]) {
-    let places: Vec<[f64; 2]> = frames.iter().map(|[value, y]| [across.at(*value), up.at(*y)]).collect();
+/// `offset` is from the middle of the rail to this record's lane.
+fn draw(
+    canvas: &mut Canvas,
+    spec: &Lines,
+    record: &Stability,
+    frames: &[[f64; 2]],
+    [across, up]: [&Axis; 2],
+    offset: f64,
+) {
+    let height = |y: f64| up.at(y) + if y <= 0.0 { offset } else { 0.0 };
+    let places: Vec<[f64; 2]> = frames.iter().map(|[value, y]| [across.at(*value), height(*y)]).collect();
     canvas.markup.open("g", &[("data-m", &record.graph)]).line();
     canvas.method_path(&places, spec.styles, &record.graph, "1.6");
     let worst = (0..frames.len()).max_by(|a, b| frames[*a][1].total_cmp(&frames[*b][1]));
