@@ -130,7 +130,7 @@ fn figures_that_are_no_numbers_are_listed_and_never_drawn() {
     let points: Vec<&Point> = bad.iter().chain([&good]).collect();
     let chart = scatter_of(&points, Metric::named("rmse_penumbra").unwrap());
     assert_sound(&chart, points.iter().map(|point| point.id.as_str()));
-    assert_eq!(chart.shown, [good.id.clone()]);
+    assert_eq!(chart.shown, std::slice::from_ref(&good.id));
     let node = with("nan_node", &|point| point.nodes[0].millis = f64::NAN);
     let chart = bars(&Bars { title: "", points: &[&node], styles: &Styles::default() });
     assert_sound(&chart, ["nan_node"]);

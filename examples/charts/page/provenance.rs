@@ -61,9 +61,7 @@ pub fn table(markup: &mut Markup, points: &[Point]) {
         let sets: Vec<String> = point.choices.iter().map(|(axis, value)| format!("{axis}={value}")).collect();
         let p = &point.provenance;
         markup.open("tr", &[("data-m", &point.graph)]);
-        for hash in [&point.id] {
-            markup.open("td", &[]).element("code", &[], hash).close();
-        }
+        markup.open("td", &[]).element("code", &[], &point.id).close();
         let words = [&point.scene, &point.view, &point.label, &point.backend, &sets.join(" ")];
         words.iter().for_each(|word| table::text(markup, word));
         for hash in [&p.graph_hash, &p.scene_hash, &p.commit] {

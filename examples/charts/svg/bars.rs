@@ -75,7 +75,7 @@ pub fn bars(spec: &Bars) -> Chart {
     canvas.axis_below(&axis, [top, foot], 7);
     let mut caption = String::from("milliseconds with node timers on; line: the frame with timers off");
     if ends.last().is_some_and(|longest| *longest > end) {
-        caption += "; arrow: goes on";
+        caption += "; arrow: not to scale";
     }
     canvas.muted((left + RIGHT) / 2.0, foot + 34.0, Anchor::Middle, &caption);
     for (row, (point, total)) in rows.iter().enumerate() {
@@ -84,9 +84,11 @@ pub fn bars(spec: &Bars) -> Chart {
         canvas.mark([left - 12.0, y + BAR / 2.0], spec.styles, &point.graph, spec.styles.is_hollow(&point.backend), "");
         let label = shortened(&point.label, ((left - 26.0) / LETTER) as usize);
         canvas.text(left - 24.0, y + BAR - 3.0, Anchor::End, &label);
+        // A bar that leaves the paper shows its pieces in proportion.
+        let scale = if *total > end { end / total } else { 1.0 };
         let mut done = 0.0;
         for node in &point.nodes {
-            let [from, to] = [done, done + node.millis].map(|millis| axis.at(millis));
+            let [from, to] = [done, done + node.millis].map(|millis| axis.at(millis * scale));
             done += node.millis;
             if to > from {
                 piece(

@@ -5,19 +5,22 @@ use super::canvas::{Anchor, LETTER};
 /// Boxes that are taken.
 #[derive(Default)]
 pub struct Taken {
-    boxes: Vec<[f64; 4]>,
+    /// Area, and how much it costs to cover a unit of it.
+    boxes: Vec<([f64; 4], f64)>,
     marks: Vec<[f64; 2]>,
 }
 
 /// Half of a mark, with a little air.
 const MARK: f64 = 7.0;
+/// What it costs to cover a unit of area of a line, a mark, a name.
+const COVER: [f64; 3] = [1.0, 3.0, 6.0];
 /// Height of a line of text.
 const LINE: f64 = 13.0;
 
 impl Taken {
     /// A mark at this place.
     pub fn mark(&mut self, [x, y]: [f64; 2]) {
-        self.boxes.push([x - MARK, y - MARK, x + MARK, y + MARK]);
+        self.boxes.push(([x - MARK, y - MARK, x + MARK, y + MARK], COVER[1]));
         self.marks.push([x, y]);
     }
 
@@ -29,7 +32,7 @@ impl Taken {
             for step in 0..=steps as usize {
                 let share = step as f64 / steps;
                 let [x, y] = [x + (to_x - x) * share, y + (to_y - y) * share];
-                self.boxes.push([x - 1.5, y - 1.5, x + 1.5, y + 1.5]);
+                self.boxes.push(([x - 1.5, y - 1.5, x + 1.5, y + 1.5], COVER[0]));
             }
         }
     }
@@ -62,7 +65,7 @@ impl Taken {
         // Units of area: far away costs as much as hiding a few letters of a line.
         let cost = |at, anchor, away: f64| {
             let area = boxed(at, anchor);
-            let covered: f64 = self.boxes.iter().map(|other| overlap(area, *other)).sum();
+            let covered: f64 = self.boxes.iter().map(|(other, cost)| cost * overlap(area, *other)).sum();
             // A name that lies as near to another mark seems to be that one's.
             let own = distance(area, [x, y]);
             let others = self.marks.iter().filter(|mark| **mark != [x, y]);
@@ -78,7 +81,7 @@ impl Taken {
             }
         }
         let (at, anchor, away) = best;
-        self.boxes.push(boxed(at, anchor));
+        self.boxes.push((boxed(at, anchor), COVER[2]));
         (at, anchor, away > 16.0)
     }
 }
@@ -107,9 +110,10 @@ mod tests {
         for mark in marks {
             taken.place(mark, "shadow_map 2048", [0.0, 0.0, 400.0, 300.0]);
         }
-        for (index, a) in taken.boxes.iter().enumerate() {
-            for b in taken.boxes[index + 1..].iter().filter(|b| a[2] - a[0] > 20.0 || b[2] - b[0] > 20.0) {
-                assert_eq!(overlap(*a, *b), 0.0, "{a:?} {b:?}");
+        let (marks, names) = taken.boxes.split_at(marks.len());
+        for (index, (name, _)) in names.iter().enumerate() {
+            for (other, _) in marks.iter().chain(&names[index + 1..]) {
+                assert_eq!(overlap(*name, *other), 0.0, "{name:?} {other:?}");
             }
         }
     }

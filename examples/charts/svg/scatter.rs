@@ -79,9 +79,9 @@ pub fn scatter(spec: &Scatter) -> Chart {
     if marks.is_empty() {
         canvas.muted(WIDTH / 2.0, TOP + PLOT_HEIGHT / 2.0, Anchor::Middle, "no variant has both a time and this error");
     } else {
-        canvas.axis_below(&across, [TOP, foot], 9);
+        canvas.axis_below(&across, [TOP, foot], 12);
         if marks.iter().any(|mark| mark.error > 0.0) {
-            canvas.axis_beside(&up, [LEFT, RIGHT], 9);
+            canvas.axis_beside(&up, [LEFT, RIGHT], 12);
         }
         canvas.muted((LEFT + RIGHT) / 2.0, foot + 34.0, Anchor::Middle, "milliseconds a frame, median and interval");
     }
