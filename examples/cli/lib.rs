@@ -18,7 +18,9 @@ pub mod picture;
 pub mod ranges;
 pub mod record;
 pub mod report;
+pub mod stretch;
 pub mod texture;
+pub mod trial;
 pub mod verify;
 
 use shadowgraph_core::problem::{Kind, Place, Problem};

@@ -1,5 +1,7 @@
 //! The plan: all that a backend ever sees.
 
+mod given;
+
 use crate::array::Element;
 use crate::param::Params;
 use crate::pass::Pass;
