@@ -11,6 +11,7 @@ const MAY: &[(&str, &[&str])] = &[
     ("backends/cpu", &["shadowgraph-core"]),
     ("backends/wgpu", &["shadowgraph-core"]),
     ("examples/scenes", &["shadowgraph-core"]),
+    ("examples/measure", &["shadowgraph-core"]),
 ];
 
 /// Folder -> foreign crates it must not name.
@@ -21,6 +22,7 @@ const NEVER: &[(&str, &[&str])] = &[
     ("backends/cpu", &["wgpu", "naga", "ron", "gltf"]),
     ("backends/wgpu", &["ron", "gltf", "rayon"]),
     ("examples/scenes", &["wgpu", "naga", "ron"]),
+    ("examples/measure", &["wgpu", "naga", "ron", "gltf"]),
 ];
 
 pub fn crates_use_only_what_they_may() -> Vec<String> {
