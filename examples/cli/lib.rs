@@ -1,6 +1,7 @@
 //! What a program that runs graphs needs beside the libraries: scene and view by name, a run across both backends, records,
 //! dumps, pictures, verification.
 
+pub mod answers;
 pub mod args;
 pub mod commands;
 pub mod converged;
