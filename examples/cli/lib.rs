@@ -16,6 +16,7 @@ pub mod light_choice;
 pub mod npy;
 pub mod outcome;
 pub mod picture;
+pub mod port_difference;
 pub mod ranges;
 pub mod record;
 pub mod report;
