@@ -13,6 +13,6 @@
 #![forbid(unsafe_code)]
 
 // pub mod flip;
-// pub mod paired;
+pub mod paired;
 pub mod pareto;
 pub mod statistics;
