@@ -3,6 +3,7 @@
 
 pub mod answers;
 pub mod args;
+pub mod chart;
 pub mod commands;
 pub mod compare;
 pub mod converged;

@@ -1,5 +1,6 @@
 //! The command line, as clap sees it: one file a command, and one for what several take.
 
+mod chart;
 mod check;
 mod compare;
 mod graph;
@@ -9,6 +10,7 @@ mod run;
 mod scene;
 mod verify;
 
+pub use chart::{ChartArgs, MergeArgs};
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use graph::{GraphArgs, GraphChoice};
@@ -46,6 +48,10 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Compare two graphs, or two variants of one: what differs, which is faster and how certain that is, which is wrong and where
     Compare(CompareArgs),
+    /// Run a suite of scenes and variants: milliseconds against error, as one page, charts and tables
+    Chart(ChartArgs),
+    /// Make one folder of the parts of a sharded chart run
+    Merge(MergeArgs),
     /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU
     Check(CheckArgs),
     /// Print a graph: its plan, or a drawing

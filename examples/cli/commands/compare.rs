@@ -74,7 +74,8 @@ fn write(folder: &Path, report: &Report) -> Result<String, Problems> {
         }
         let path = folder.join(name);
         write_difference(&path, test, truth)?;
-        wrote.push(format!("wrote {}: red too light, blue too dark", path.display()));
+        wrote.push(format!("wrote {}", path.display()));
     }
+    wrote.push(format!("colours: {}", shadowgraph_charts::error_map::DOC));
     Ok(wrote.join("\n") + "\n")
 }

@@ -1,5 +1,6 @@
 //! One file a subcommand. Each returns what to print and the exit status; only `main` prints.
 
+pub mod chart;
 pub mod check;
 pub mod compare;
 pub mod export;

@@ -72,7 +72,7 @@ pub fn figure(value: Option<f64>) -> String {
 
 fn errors_text(errors: &[Errors; 2]) -> String {
     let mut rows = table(&["error against the truth", "A", "B"]);
-    let figures: [(&str, fn(&Errors) -> Option<f64>); 9] = [
+    let figures: [(&str, fn(&Errors) -> Option<f64>); 11] = [
         ("wrong bits, share", |errors| errors.wrong_bit_share),
         ("light leak, share", |errors| errors.light_leak_share),
         ("shadow leak, share", |errors| errors.shadow_leak_share),
@@ -82,6 +82,8 @@ fn errors_text(errors: &[Errors; 2]) -> String {
         ("largest error", |errors| errors.max),
         ("mean error, above 0 too light", |errors| errors.mean_signed),
         ("penumbra width over true width", |errors| errors.penumbra_width_ratio),
+        ("mean FLIP, tone-mapped", |errors| errors.flip_tonemapped),
+        ("mean HDR-FLIP, linear", |errors| errors.flip_linear),
     ];
     for (name, of) in figures {
         rows.add_row([name.to_string(), figure(of(&errors[0])), figure(of(&errors[1]))]);
