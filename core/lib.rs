@@ -18,6 +18,7 @@ pub mod pass;
 pub mod plan;
 pub mod port;
 pub mod problem;
+pub mod reading;
 pub mod record;
 pub mod scene;
 pub mod shared;

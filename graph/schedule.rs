@@ -5,7 +5,7 @@ use crate::resolve::{From, Resolved};
 use crate::wire::Wired;
 use crate::world::Selection;
 use petgraph::graph::{DiGraph, NodeIndex};
-use shadowgraph_core::plan::{Backend, Node, Plan, Producer, Slot, SlotId, Step};
+use shadowgraph_core::plan::{Backend, Node, Plan, Producer, Slot, SlotId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -110,7 +110,7 @@ pub(crate) fn schedule(parts: &Scheduled) -> Plan {
         plan.outputs.push((name.to_string(), slot));
     }
     alias(&mut plan.slots, parts.alias);
-    plan.steps = steps(&plan);
+    plan.steps = plan.ordered_steps();
     plan
 }
 
@@ -141,27 +141,4 @@ fn slot_of(
             first_slots[node] + position
         }
     }
-}
-
-/// Every node, with a transfer before the first use of a value on a backend where it is not yet.
-///
-/// A graph input is where its first reader is.
-fn steps(plan: &Plan) -> Vec<Step> {
-    let mut is_at = vec![[false; 2]; plan.slots.len()];
-    let mut steps = Vec::with_capacity(plan.nodes.len());
-    for (index, node) in plan.nodes.iter().enumerate() {
-        let on = node.on as usize;
-        for (_, slot) in &node.inputs {
-            let is_new = is_at[*slot] == [false; 2];
-            if !is_new && !is_at[*slot][on] {
-                steps.push(Step::Transfer { slot: *slot, to: node.on });
-            }
-            is_at[*slot][on] = true;
-        }
-        for (_, slot) in &node.outputs {
-            is_at[*slot][on] = true;
-        }
-        steps.push(Step::Run(index));
-    }
-    steps
 }

@@ -25,11 +25,11 @@ pub mod shadow_lookup;
 pub mod view_samples;
 pub mod visibility;
 
-use shadowgraph_core::pass::Catalogue;
+use shadowgraph_core::pass::{Catalogue, Pass};
 
 /// All passes of this crate, stage by stage in the order of a frame.
 pub fn catalogue() -> Catalogue {
-    let stages: [&[&'static shadowgraph_core::pass::Pass]; 18] = [
+    let stages: [&[&'static Pass]; 18] = [
         view_samples::PASSES,
         sample_filter::PASSES,
         light_frame::PASSES,
@@ -50,4 +50,24 @@ pub fn catalogue() -> Catalogue {
         present::PASSES,
     ];
     Catalogue::new(stages.into_iter().flatten().copied())
+}
+
+/// A number of the sources of `pass`, its WGSL and what it shares with other passes included, in sixteen hexadecimal digits; none
+/// for a pass that is not of this crate.
+pub fn source_id(pass: &Pass) -> Option<&'static str> {
+    let sources: &[(&str, &str, &'static str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
+    sources.iter().find(|(stage, name, _)| (*stage, *name) == (pass.stage.name, pass.name)).map(|(_, _, id)| *id)
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_pass_has_a_source_of_its_own() {
+        let mut ids: Vec<_> = super::catalogue().passes().map(|pass| super::source_id(pass)).collect();
+        assert!(ids.iter().all(Option::is_some), "a pass is not the folder of its name: {ids:?}");
+        let count = ids.len();
+        ids.sort();
+        ids.dedup();
+        assert_eq!(ids.len(), count);
+    }
 }

@@ -26,6 +26,13 @@ pub(crate) enum Act {
     Draw(Box<Raster>),
 }
 
+impl Act {
+    /// Whether it is a pass, which has borders to stamp.
+    pub fn is_pass(&self) -> bool {
+        matches!(self, Self::Compute(_) | Self::Draw(_))
+    }
+}
+
 /// A dispatch.
 #[derive(Debug)]
 pub(crate) struct Kernel {

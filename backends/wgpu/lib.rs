@@ -5,9 +5,8 @@
 //! of its own; on that way nothing here makes a device, polls or submits. A **program** without a device uses a
 //! [`Session`], which does all of that and hands back arrays, times and counts.
 //!
-//! What is wrong with a recipe or a kernel (a binding that does not match, a port that is written though it is an input) is a
-//! mistake of the pass and panics with node and binding. What the world lacks (adapter, feature, memory) is a
-//! [`Problem`](shadowgraph_core::problem::Problem).
+//! What is wrong with a recipe or a kernel (a binding that does not match, a port that is written though it is an input), and what
+//! the world lacks (adapter, feature, memory), is a [`Problem`](shadowgraph_core::problem::Problem) that names node and binding.
 #![forbid(unsafe_code)]
 
 pub mod adapter;
@@ -22,6 +21,7 @@ mod pipeline;
 mod pool;
 mod prepare;
 pub mod readback;
+pub mod ready;
 mod recipe;
 mod record;
 mod run;
@@ -41,5 +41,6 @@ mod tests_host;
 
 pub use externals::Externals;
 pub use prepare::{Prepared, Request};
+pub use ready::Ready;
 pub use session::{Options, Outcome, Session};
 pub use wgpu;

@@ -54,9 +54,8 @@ impl Prepared {
             if let Some(counters) = self.layout.counters(index) {
                 zero(encoder, bound, counters);
             }
-            let is_pass = |act: &Act| matches!(act, Act::Compute(_) | Act::Draw(_));
-            let first = acts.iter().position(is_pass);
-            let last = acts.iter().rposition(is_pass);
+            let first = acts.iter().position(Act::is_pass);
+            let last = acts.iter().rposition(Act::is_pass);
             for (place, act) in acts.iter().enumerate() {
                 let (begin, end) = (first == Some(place), last == Some(place));
                 match act {

@@ -1,6 +1,5 @@
 //! Frames of a session: upload, submit, wait, time, judge, read back.
 
-use crate::counters::Verdict;
 use crate::errors::scoped;
 use crate::externals::Bound;
 use crate::features::check_features;
@@ -11,12 +10,22 @@ use crate::timing::{Clock, Stamps};
 use shadowgraph_core::array::Array;
 use shadowgraph_core::plan::{Grown, Plan, SlotId};
 use shadowgraph_core::problem::Problem;
+use shadowgraph_core::reading::Reading;
 use std::ops::Range;
 use std::sync::PoisonError;
 use std::time::Instant;
 
 /// Uploads above this size are handed to the device at once.
 const FLUSH_BYTES: usize = 32 << 20;
+
+/// A plan that has run once in memory large enough for it.
+pub(crate) struct Fitted {
+    pub prepared: Prepared,
+    /// That run.
+    pub first: Times,
+    /// What is wrong with its outputs, other than what growing mends.
+    pub problem: Option<Problem>,
+}
 
 impl Session {
     /// Runs, and again while counters tell of an overflow and growing is allowed. Also returns what is wrong with the outcome.
@@ -27,41 +36,77 @@ impl Session {
         image: [usize; 2],
         options: &Options,
     ) -> Result<(Outcome, Option<Problem>), Problem> {
+        let (mut attempts, mut grown) = (0, Grown::new());
+        loop {
+            let Fitted { prepared, first, .. } = self.fit(plan, inputs, image, options, &mut attempts, &mut grown)?;
+            let clock = self.clock(options.timers);
+            let mut frames = if options.warm_up == 0 { vec![first] } else { Vec::new() };
+            // The run that fitted was the first of all.
+            for _ in 1..options.warm_up {
+                scoped(&self.device, || self.frame(&prepared, clock))?;
+            }
+            while frames.len() < options.frames.max(1) as usize {
+                frames.push(scoped(&self.device, || self.frame(&prepared, clock))?);
+            }
+            let status = scoped(&self.device, || self.status(&prepared))?;
+            self.check()?;
+            let verdict = prepared.judge(&status);
+            // Atomics may need a row more in a later frame.
+            if verdict.grown.is_empty() || attempts >= options.regrow {
+                let mut outcome = outcome(&prepared, &frames, &status, clock);
+                outcome.arrays = scoped(&self.device, || self.kept(&prepared))?;
+                outcome.grown = grown;
+                return Ok((outcome, verdict.problem));
+            }
+            grown = verdict.grown;
+            attempts += 1;
+        }
+    }
+
+    /// Prepares for capacities `grown`, uploads and runs once; with more memory as long as counters tell of an overflow and growing is
+    /// allowed.
+    pub(crate) fn fit(
+        &self,
+        plan: &Plan,
+        inputs: &[(SlotId, &Array)],
+        image: [usize; 2],
+        options: &Options,
+        attempts: &mut u32,
+        grown: &mut Grown,
+    ) -> Result<Fitted, Problem> {
         check_features(plan, self.device.features(), self.capabilities)?;
         let shapes: Vec<_> =
             inputs.iter().map(|(slot, array)| (plan.slots[*slot].name.clone(), array.shape().to_vec())).collect();
-        let mut grown = Grown::new();
-        for attempt in 0.. {
+        loop {
             let request = Request {
-                grown: &grown,
+                grown,
                 alias: options.alias,
                 budget_bytes: options.budget_bytes,
                 ..Request::new(plan, &shapes, image)
             };
             let prepared = Prepared::prepare_with(&self.pipelines, &self.device, &self.queue, &request)?;
-            let done = scoped(&self.device, || self.frames(&prepared, inputs, options));
+            let done = scoped(&self.device, || self.first_frame(&prepared, inputs, options));
             self.check()?;
-            let (mut outcome, verdict) = done?;
+            let (first, status) = done?;
+            let verdict = prepared.judge(&status);
             if verdict.grown.is_empty() {
-                outcome.arrays = scoped(&self.device, || self.kept(&prepared))?;
-                outcome.grown = grown;
-                return Ok((outcome, verdict.problem));
+                return Ok(Fitted { prepared, first, problem: verdict.problem });
             }
-            if let (Some(problem), true) = (verdict.problem, attempt >= options.regrow) {
+            if let (Some(problem), true) = (verdict.problem, *attempts >= options.regrow) {
                 return Err(problem);
             }
-            grown = verdict.grown;
+            *grown = verdict.grown;
+            *attempts += 1;
         }
-        unreachable!("the loop returns")
     }
 
-    /// Uploads, runs all frames (the first alone when it overflows), and judges the counters.
-    fn frames(
+    /// Uploads and runs one frame; its times and the counters after it.
+    fn first_frame(
         &self,
         prepared: &Prepared,
         inputs: &[(SlotId, &Array)],
         options: &Options,
-    ) -> Result<(Outcome, Verdict), Problem> {
+    ) -> Result<(Times, Vec<u32>), Problem> {
         for (slot, array) in inputs {
             prepared.upload_any(&self.queue, *slot, array)?;
             // Written values are staged until a submission is done: large ones must not pile up.
@@ -73,47 +118,12 @@ impl Session {
             prepared.poison(&self.queue);
         }
         wait(&self.device, Some(self.queue.submit([])))?;
-        let clock = match options.timers {
-            true => Clock::fitting(self.kind, self.device.features()),
-            false => Clock::Off,
-        };
-        let mut frames = Vec::new();
-        let mut status = Vec::new();
-        for frame in 0..options.warm_up + options.frames.max(1) {
-            let times = self.frame(prepared, clock)?;
-            if frame >= options.warm_up {
-                frames.push(times);
-            }
-            status = self.status(prepared)?;
-            if !prepared.judge(&status).grown.is_empty() {
-                break;
-            }
-        }
-        let verdict = prepared.judge(&status);
-        let counts = prepared.counts(&status);
-        let words = |slot: SlotId| prepared.layout.slot(slot).map_or(0, |part| part.bytes());
-        let node_run = |(index, counts): (usize, Vec<u64>)| NodeRun {
-            node: index,
-            millis: median(frames.iter().filter_map(|times| times.nodes[index])),
-            bytes: prepared.plan.nodes[index].outputs.iter().map(|(_, slot)| words(*slot)).sum(),
-            scratch_bytes: prepared
-                .layout
-                .scratch(index)
-                .iter()
-                .chain(prepared.layout.counters(index))
-                .map(|part| part.bytes())
-                .sum(),
-            counts,
-        };
-        let outcome = Outcome {
-            arrays: Vec::new(),
-            nodes: counts.into_iter().enumerate().map(node_run).collect(),
-            frame_millis: median(frames.iter().map(|times| times.all)).unwrap_or_default(),
-            clock,
-            memory_bytes: prepared.bytes(),
-            grown: Grown::new(),
-        };
-        Ok((outcome, verdict))
+        Ok((self.frame(prepared, self.clock(options.timers))?, self.status(prepared)?))
+    }
+
+    /// Whose clock times nodes here, if timers are on.
+    pub(crate) fn clock(&self, timers: bool) -> Clock {
+        if timers { Clock::fitting(self.kind, self.device.features()) } else { Clock::Off }
     }
 
     /// Runs one frame and waits for it.
@@ -121,30 +131,35 @@ impl Session {
         let bound = Bound::none(prepared);
         let count = prepared.nodes.len();
         let stamps = (clock == Clock::Device).then(|| Stamps::new(&self.device, count));
-        let one = |nodes: Range<usize>| {
+        let mut from = None;
+        // Milliseconds since the first submission, at submit and when done.
+        let mut one = |nodes: Range<usize>| {
             let mut encoder = self.device.create_command_encoder(&Default::default());
             prepared.record_nodes(&mut encoder, &bound, nodes, stamps.as_ref());
             if let Some(stamps) = &stamps {
                 stamps.resolve(&mut encoder);
             }
             let commands = encoder.finish();
-            let start = Instant::now();
+            let from = *from.get_or_insert_with(Instant::now);
+            let begin = from.elapsed().as_secs_f64() * 1e3;
             wait(&self.device, Some(self.queue.submit([commands])))?;
-            Ok(start.elapsed().as_secs_f64() * 1e3)
+            Ok([begin, from.elapsed().as_secs_f64() * 1e3])
         };
         if clock == Clock::HostPerNode {
-            let nodes = (0..count).map(|node| one(node..node + 1).map(Some)).collect::<Result<Vec<_>, Problem>>()?;
-            return Ok(Times { all: nodes.iter().flatten().sum(), nodes });
+            let spans = (0..count).map(|node| one(node..node + 1)).collect::<Result<Vec<_>, Problem>>()?;
+            let all = spans.iter().map(|[begin, end]| end - begin).sum();
+            let nodes = spans.into_iter().map(|[begin, end]| Reading::of(begin, end)).collect();
+            return Ok(Times { all, nodes, clock });
         }
-        let all = one(0..count)?;
+        let [begin, end] = one(0..count)?;
         let nodes = match &stamps {
-            Some(stamps) => stamps.millis(prepared, &self.queue)?,
-            None => vec![None; count],
+            Some(stamps) => stamps.readings(prepared, &self.queue)?,
+            None => vec![Reading::Untimed; count],
         };
-        Ok(Times { all, nodes })
+        Ok(Times { all: end - begin, nodes, clock })
     }
 
-    fn status(&self, prepared: &Prepared) -> Result<Vec<u32>, Problem> {
+    pub(crate) fn status(&self, prepared: &Prepared) -> Result<Vec<u32>, Problem> {
         let count = prepared.status_words();
         if count == 0 {
             return Ok(Vec::new());
@@ -161,7 +176,7 @@ impl Session {
         read_words(&self.device, &self.queue, &status, 0, count)
     }
 
-    fn kept(&self, prepared: &Prepared) -> Result<Vec<(SlotId, Array)>, Problem> {
+    pub(crate) fn kept(&self, prepared: &Prepared) -> Result<Vec<(SlotId, Array)>, Problem> {
         let bound = Bound::none(prepared);
         let mut arrays = Vec::new();
         for (id, slot) in prepared.plan.slots.iter().enumerate() {
@@ -173,18 +188,50 @@ impl Session {
     }
 
     /// What the device reported outside every error scope.
-    fn check(&self) -> Result<(), Problem> {
+    pub(crate) fn check(&self) -> Result<(), Problem> {
         let mut reports = self.reports.lock().unwrap_or_else(PoisonError::into_inner);
         if reports.is_empty() { Ok(()) } else { Err(reports.remove(0)) }
     }
 }
 
-/// Times of one frame, milliseconds.
+impl Prepared {
+    /// Size of a node's outputs, bytes.
+    pub(crate) fn output_bytes(&self, node: usize) -> u64 {
+        let bytes = |slot: SlotId| self.layout.slot(slot).map_or(0, |part| part.bytes());
+        self.plan.nodes[node].outputs.iter().map(|(_, slot)| bytes(*slot)).sum()
+    }
+
+    fn scratch_bytes(&self, node: usize) -> u64 {
+        self.layout.scratch(node).iter().chain(self.layout.counters(node)).map(|part| part.bytes()).sum()
+    }
+}
+
+fn outcome(prepared: &Prepared, frames: &[Times], status: &[u32], clock: Clock) -> Outcome {
+    let node_run = |(node, counts): (usize, Vec<u64>)| NodeRun {
+        node,
+        millis: median(frames.iter().filter_map(|times| times.nodes[node].millis())),
+        bytes: prepared.output_bytes(node),
+        scratch_bytes: prepared.scratch_bytes(node),
+        counts,
+    };
+    Outcome {
+        arrays: Vec::new(),
+        nodes: prepared.counts(status).into_iter().enumerate().map(node_run).collect(),
+        frame_millis: median(frames.iter().map(|times| times.all)).unwrap_or_default(),
+        clock,
+        memory_bytes: prepared.bytes(),
+        grown: Grown::new(),
+    }
+}
+
+/// Times of one frame.
+#[derive(Clone, Debug)]
 pub(crate) struct Times {
-    /// Submit to done, host clock.
+    /// Submit to done, host clock, milliseconds.
     pub all: f64,
     /// By node of the plan.
-    pub nodes: Vec<Option<f64>>,
+    pub nodes: Vec<Reading>,
+    pub clock: Clock,
 }
 
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {

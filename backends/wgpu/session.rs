@@ -9,7 +9,7 @@ use shadowgraph_core::array::Array;
 use shadowgraph_core::param::Params;
 use shadowgraph_core::pass::Pass;
 use shadowgraph_core::plan::{Backend, Grown, Node, Plan, Producer, Slot, SlotId, Step};
-use shadowgraph_core::problem::{Kind, Problem};
+use shadowgraph_core::problem::Problem;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -179,15 +179,7 @@ impl Session {
         options: &Options,
     ) -> Result<Outcome, Problem> {
         let segment = Segment::new(plan, nodes.clone());
-        let mut inputs = Vec::new();
-        for (inner, slot) in segment.plan.inputs() {
-            let array = value(segment.slots[inner]).ok_or_else(|| {
-                Problem::new(Kind::Missing, "graph input is not supplied")
-                    .port(&slot.name)
-                    .expected(slot.port.type_text())
-            })?;
-            inputs.push((inner, array));
-        }
+        let inputs = segment.inputs(value)?;
         let (mut outcome, verdict) = self.run_grown(&segment.plan, &inputs, image, options)?;
         if let Some(problem) = verdict {
             return Err(problem);

@@ -1,8 +1,10 @@
 //! Times of nodes, and whose clock they come from.
 
+use crate::command::Act;
 use crate::prepare::Prepared;
 use crate::readback::read_words;
 use shadowgraph_core::problem::Problem;
+use shadowgraph_core::reading::Reading;
 
 /// Where a node's time comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,16 +86,23 @@ impl Stamps {
         encoder.resolve_query_set(&self.set, 0..self.count, &self.resolved, 0);
     }
 
-    /// Milliseconds of each node after the frame has run; none where there was no pass, or where the device stamped nonsense.
-    pub fn millis(&self, prepared: &Prepared, queue: &wgpu::Queue) -> Result<Vec<Option<f64>>, Problem> {
+    /// When each node ran, after the frame has; milliseconds since the first stamp.
+    pub fn readings(&self, prepared: &Prepared, queue: &wgpu::Queue) -> Result<Vec<Reading>, Problem> {
         let words = read_words(&prepared.device, queue, &self.resolved, 0, self.count as usize * 2)?;
-        let nanos_per_tick = f64::from(queue.get_timestamp_period());
         let tick = |query: usize| u64::from(words[2 * query]) | u64::from(words[2 * query + 1]) << 32;
-        let of_node = |index: usize| {
-            let timed = prepared.nodes[index].is_some() && 2 * index + 1 < self.count as usize;
-            let (begin, end) = if timed { (tick(2 * index), tick(2 * index + 1)) } else { (0, 0) };
-            (begin != 0 && end > begin).then(|| (end - begin) as f64 * nanos_per_tick * 1e-6)
+        let ticks = |index: usize| {
+            let is_timed = prepared.nodes[index].as_ref().is_some_and(|acts| acts.iter().any(Act::is_pass));
+            (is_timed && 2 * index + 1 < self.count as usize).then(|| [tick(2 * index), tick(2 * index + 1)])
         };
-        Ok((0..prepared.nodes.len()).map(of_node).collect())
+        let ticks: Vec<_> = (0..prepared.nodes.len()).map(ticks).collect();
+        let first = ticks.iter().flatten().flatten().copied().filter(|tick| *tick != 0).min().unwrap_or(0);
+        let millis_per_tick = f64::from(queue.get_timestamp_period()) * 1e-6;
+        let millis = |tick: u64| (tick - first) as f64 * millis_per_tick;
+        let reading = |ticks: Option<[u64; 2]>| match ticks {
+            None => Reading::Untimed,
+            Some([begin, end]) if begin == 0 || end == 0 => Reading::Dropped,
+            Some([begin, end]) => Reading::of(millis(begin), millis(end)),
+        };
+        Ok(ticks.into_iter().map(reading).collect())
     }
 }

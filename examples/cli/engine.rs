@@ -1,18 +1,20 @@
 //! Runs a plan whose nodes may be on both backends.
 
 use crate::args::BackendChoice;
-use crate::jitter;
 use crate::job::Job;
 use crate::outcome::Outcome;
-use crate::ranges::{self, Ranges};
+use crate::ranges::Ranges;
 use crate::record::DeviceRecord;
+use crate::stretch::{Frame, How};
 use shadowgraph_core::array::Array;
 use shadowgraph_core::plan::{Backend, Grown, Plan};
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_cpu::{Progress, Store};
-use shadowgraph_wgpu::{Options, Session};
+use shadowgraph_wgpu::Session;
 use std::ops::Range;
-use std::time::Instant;
+
+/// Values of slots by name, beside the job's.
+pub type Given = [(String, Array)];
 
 /// What nodes can run on.
 pub struct Machine {
@@ -61,6 +63,11 @@ impl Machine {
         Self { ranges: ranges as usize, ..self }
     }
 
+    /// With a device, for nodes that are pinned to it later.
+    pub fn open(&mut self, session: &'static Session) {
+        self.session = Some(session);
+    }
+
     /// Opens a session if `plan` has a node that needs one.
     ///
     /// # Errors
@@ -104,27 +111,65 @@ impl Machine {
     /// # Errors
     /// A node reports a problem, memory does not suffice, a value overflows its buffer past growing.
     pub fn run(&self, plan: &Plan, job: &Job, repeat: u32, progress: &Progress) -> Result<Outcome, Problem> {
-        let inputs = job.inputs();
+        self.run_given(plan, job, &[], repeat, progress)
+    }
+
+    /// As [`Machine::run`], with the values of some slots by name: for plans that [`Plan::given`] cut.
+    ///
+    /// # Errors
+    /// As [`Machine::run`]; a given value that is missing.
+    pub fn run_given(
+        &self,
+        plan: &Plan,
+        job: &Job,
+        given: &Given,
+        repeat: u32,
+        progress: &Progress,
+    ) -> Result<Outcome, Problem> {
         let mut outcome = Outcome { runs_count: repeat, ..Outcome::new(plan) };
         let (rounds, warm_ups) = if shadowgraph_cpu::runs_all(plan) { (repeat, u32::from(repeat > 1)) } else { (1, 0) };
-        let ranges = Ranges::of(plan, job.sets.len() > 1);
-        let count = self.range_count(plan, &ranges, &inputs, job)?;
-        let how = How { machine: self, job, repeat, progress };
+        let how = How { repeat, is_warmed_up: repeat > 1, ..How::once(self, job, progress) };
         for round in 0..rounds + warm_ups {
-            let mut store = Store::new(plan);
-            supply(plan, &inputs, &mut store)?;
-            let mut frame = Frame::new(plan);
-            if count == 1 && job.sets.len() == 1 {
-                for stretch in segments(plan) {
-                    how.stretch(plan, stretch, &mut store, &mut frame)?;
-                }
-            } else {
-                how.in_ranges(plan, &ranges, count, &mut store, &mut frame)?;
-            }
+            let (frame, values) = self.frame(plan, given, &how)?;
             frame.record(plan, &mut outcome, round >= warm_ups);
-            outcome.values = store;
+            outcome.values = values;
         }
         Ok(outcome)
+    }
+
+    /// One run of all nodes: what they did, and the values that are kept.
+    ///
+    /// # Errors
+    /// As [`Machine::run`].
+    pub fn frame(&self, plan: &Plan, given: &Given, how: &How) -> Result<(Frame, Store), Problem> {
+        let mut inputs = how.job.inputs();
+        inputs.extend(given.iter().cloned());
+        let ranges = Ranges::of(plan, how.job.sets.len() > 1);
+        let count = self.range_count(plan, &ranges, &inputs, how.job)?;
+        let mut store = Store::new(plan);
+        supply(plan, &inputs, &mut store)?;
+        let mut frame = Frame::new(plan);
+        if count == 1 && how.job.sets.len() == 1 {
+            for stretch in segments(plan) {
+                how.stretch(plan, stretch, &mut store, &mut frame)?;
+            }
+        } else {
+            how.in_ranges(plan, &ranges, count, &mut store, &mut frame)?;
+        }
+        Ok((frame, store))
+    }
+
+    /// The session, if `plan` runs on it as a whole and in one piece on `job`.
+    ///
+    /// # Errors
+    /// A graph input is missing.
+    pub fn session_for(&self, plan: &Plan, job: &Job, given: &Given) -> Result<Option<&'static Session>, Problem> {
+        let mut inputs = job.inputs();
+        inputs.extend(given.iter().cloned());
+        let is_whole = job.sets.len() == 1 && plan.nodes.iter().all(|node| node.on == Backend::Wgpu);
+        let Some(session) = self.session.filter(|_| is_whole) else { return Ok(None) };
+        let count = self.range_count(plan, &Ranges::of(plan, false), &inputs, job)?;
+        Ok((count == 1).then_some(session))
     }
 
     /// Ranges of view-samples, of each sample set where there are several, to run in.
@@ -147,199 +192,19 @@ impl Machine {
         Ok(ranges.needed(plan, &shapes, most_bytes.saturating_mul(job.sets.len() as u64)))
     }
 
-    fn run_wgpu(&self, plan: &Plan, range: Range<usize>, image: [usize; 2], store: &mut Store, repeat: u32) -> Stretch {
-        let Some(session) = &self.session else {
-            return Err(Problem::new(Kind::Device, "a node is pinned to wgpu but there is no device")
-                .remedy("use --backend wgpu"));
-        };
-        let options = Options { warm_up: u32::from(repeat > 1), frames: repeat, ..Options::default() };
-        let ran = session.run_nodes(plan, range, &|slot| store.try_get(slot), image, &options)?;
-        for (slot, array) in ran.arrays {
-            store.put(slot, array);
-        }
-        let clock = ran.clock.text();
-        let runs = ran.nodes.into_iter().map(|run| Ran {
-            node: run.node,
-            millis: run.millis,
-            bytes: run.bytes as usize,
-            clock,
-            counts: run.counts,
-        });
-        Ok((ran.frame_millis, runs.collect()))
+    /// The device that wgpu nodes run on.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn session(&self) -> Result<&'static Session, Problem> {
+        self.session.ok_or_else(|| {
+            Problem::new(Kind::Device, "a node is pinned to wgpu but there is no device").remedy("use --backend wgpu")
+        })
     }
-}
-
-/// What one node did: its time, or the median of its times.
-struct Ran {
-    node: usize,
-    millis: Option<f64>,
-    bytes: usize,
-    clock: &'static str,
-    counts: Vec<u64>,
-}
-
-/// How stretches of nodes run.
-struct How<'a> {
-    machine: &'a Machine,
-    job: &'a Job,
-    repeat: u32,
-    progress: &'a Progress<'a>,
-}
-
-impl How<'_> {
-    /// Neighbouring nodes on one backend.
-    fn stretch(&self, plan: &Plan, nodes: Range<usize>, store: &mut Store, frame: &mut Frame) -> Result<(), Problem> {
-        let (millis, runs) = match plan.nodes[nodes.start].on {
-            Backend::Cpu => run_cpu(plan, nodes, self.job.image, store, self.progress)?,
-            Backend::Wgpu => self.machine.run_wgpu(plan, nodes, self.job.image, store, self.repeat)?,
-        };
-        frame.add(millis, runs);
-        Ok(())
-    }
-
-    /// Nodes that look at everything once, then the others over one part of the view-samples after another.
-    fn in_ranges(
-        &self,
-        plan: &Plan,
-        ranges: &Ranges,
-        count: usize,
-        store: &mut Store,
-        frame: &mut Frame,
-    ) -> Result<(), Problem> {
-        let (taken, kept) = (ranges.taken(plan), ranges.kept(plan));
-        let pixels = plan.slots.iter().position(|slot| slot.port.quantity == PIXEL);
-        let mut whole = plan.clone();
-        for slot in taken.iter().chain(&pixels) {
-            whole.slots[*slot].keep = true;
-        }
-        for stretch in ranges.stretches(plan, false) {
-            self.stretch(&whole, stretch, store, frame)?;
-        }
-        let parts = self.parts(&taken, pixels, plan, store, count);
-        let mut made: Vec<Vec<(Array, &[usize])>> = vec![Vec::new(); kept.len()];
-        for (set, rows) in &parts {
-            let of_set = self.job.set_inputs(*set);
-            let mut part = Store::new(plan);
-            for slot in &taken {
-                let name = &plan.slots[*slot].name;
-                let array = match of_set.iter().find(|(input, _)| input == name) {
-                    Some((_, array)) => array.clone(),
-                    None if ranges::is_rows(&plan.slots[*slot].port) => ranges::gather(store.get(*slot), rows),
-                    None => store.get(*slot).clone(),
-                };
-                part.put(*slot, array);
-            }
-            for stretch in ranges.stretches(plan, true) {
-                self.stretch(plan, stretch, &mut part, frame)?;
-            }
-            for (made, slot) in made.iter_mut().zip(&kept) {
-                made.extend(part.take(*slot).map(|array| (array, rows.as_slice())));
-            }
-        }
-        for (made, slot) in made.into_iter().zip(kept) {
-            if let Some(array) = ranges::join(&plan.slots[slot].port, made) {
-                store.put(slot, array);
-            }
-        }
-        Ok(())
-    }
-
-    /// Sample set and rows of each part.
-    fn parts(
-        &self,
-        taken: &[usize],
-        pixels: Option<usize>,
-        plan: &Plan,
-        store: &Store,
-        count: usize,
-    ) -> Vec<(usize, Vec<usize>)> {
-        let mut by_set = Vec::new();
-        match pixels.and_then(|slot| store.try_get(slot)).filter(|_| self.job.sets.len() > 1) {
-            Some(pixels) => {
-                let set_of = |column, row| jitter::set_of(column, row, self.job.jitter_side);
-                by_set = ranges::by_set(pixels.as_u32(), self.job.image[0], set_of, self.job.sets.len());
-            }
-            None => {
-                let rows = taken.iter().find(|slot| ranges::is_rows(&plan.slots[**slot].port));
-                by_set.push((0..rows.map_or(0, |slot| store.get(*slot).dim(0))).collect());
-            }
-        }
-        let cut = |(set, rows): (usize, Vec<usize>)| {
-            let ranges = ranges::split(rows.len(), count).into_iter();
-            ranges.map(move |range| (set, rows[range].to_vec())).collect::<Vec<_>>()
-        };
-        by_set.into_iter().enumerate().flat_map(cut).collect()
-    }
-}
-
-/// Quantity of the port that says which pixel a view-sample is seen through.
-const PIXEL: &str = "pixel";
-
-/// One run of all nodes. A node that runs over several ranges has its times, bytes and counts added up.
-struct Frame {
-    millis: f64,
-    nodes: Vec<Option<Ran>>,
-}
-
-impl Frame {
-    fn new(plan: &Plan) -> Self {
-        Self { millis: 0.0, nodes: plan.nodes.iter().map(|_| None).collect() }
-    }
-
-    fn add(&mut self, millis: f64, runs: Vec<Ran>) {
-        self.millis += millis;
-        for run in runs {
-            let place = &mut self.nodes[run.node];
-            *place = Some(match place.take() {
-                None => run,
-                Some(earlier) => Ran {
-                    millis: earlier.millis.zip(run.millis).map(|(a, b)| a + b),
-                    bytes: earlier.bytes + run.bytes,
-                    counts: earlier.counts.iter().zip(&run.counts).map(|(a, b)| a + b).collect(),
-                    ..run
-                },
-            });
-        }
-    }
-
-    fn record(self, plan: &Plan, outcome: &mut Outcome, is_timed: bool) {
-        for run in self.nodes.into_iter().flatten() {
-            let record = &mut outcome.nodes[run.node];
-            let counters = plan.nodes[run.node].pass.counters;
-            (record.bytes, record.clock) = (run.bytes, run.clock);
-            record.counts = counters.iter().map(|counter| counter.name).zip(run.counts).collect();
-            if is_timed {
-                record.millis.extend(run.millis);
-            }
-        }
-        if is_timed {
-            outcome.frames_millis.push(self.millis);
-        }
-    }
-}
-
-/// Milliseconds of the whole stretch of nodes, and its nodes.
-type Stretch = Result<(f64, Vec<Ran>), Problem>;
-
-fn run_cpu(plan: &Plan, range: Range<usize>, image: [usize; 2], store: &mut Store, progress: &Progress) -> Stretch {
-    let start = Instant::now();
-    let mut runs = Vec::new();
-    for node in range {
-        progress(&plan.nodes[node].id, 0, 1);
-        let run = shadowgraph_cpu::run(plan, node, image, store, progress)?;
-        runs.push(Ran {
-            node,
-            millis: Some(run.millis),
-            bytes: run.bytes,
-            clock: "host clock around the function",
-            counts: run.counts,
-        });
-    }
-    Ok((start.elapsed().as_secs_f64() * 1e3, runs))
 }
 
 /// Stretches of nodes on one backend.
-fn segments(plan: &Plan) -> Vec<Range<usize>> {
+pub fn segments(plan: &Plan) -> Vec<Range<usize>> {
     let mut ranges: Vec<Range<usize>> = Vec::new();
     for (index, node) in plan.nodes.iter().enumerate() {
         match ranges.last_mut() {
@@ -351,7 +216,7 @@ fn segments(plan: &Plan) -> Vec<Range<usize>> {
 }
 
 /// Puts the graph's inputs in their slots.
-fn supply(plan: &Plan, inputs: &[(String, Array)], store: &mut Store) -> Result<(), Problem> {
+pub fn supply(plan: &Plan, inputs: &[(String, Array)], store: &mut Store) -> Result<(), Problem> {
     for (id, slot) in plan.inputs() {
         let Some((_, array)) = inputs.iter().find(|(name, _)| *name == slot.name) else {
             return Err(Problem::new(Kind::Missing, "graph input is not supplied")

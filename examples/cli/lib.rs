@@ -1,8 +1,11 @@
 //! What a program that runs graphs needs beside the libraries: scene and view by name, a run across both backends, records,
 //! dumps, pictures, verification.
 
+pub mod answers;
 pub mod args;
+pub mod chart;
 pub mod commands;
+pub mod compare;
 pub mod converged;
 pub mod dump;
 pub mod engine;
@@ -15,10 +18,13 @@ pub mod light_choice;
 pub mod npy;
 pub mod outcome;
 pub mod picture;
+pub mod port_difference;
 pub mod ranges;
 pub mod record;
 pub mod report;
+pub mod stretch;
 pub mod texture;
+pub mod trial;
 pub mod verify;
 
 use shadowgraph_core::problem::{Kind, Place, Problem};

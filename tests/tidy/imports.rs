@@ -12,6 +12,7 @@ const MAY: &[(&str, &[&str])] = &[
     ("backends/wgpu", &["shadowgraph-core"]),
     ("examples/scenes", &["shadowgraph-core"]),
     ("examples/charts", &["shadowgraph-core"]),
+    ("examples/measure", &["shadowgraph-core"]),
 ];
 
 /// Folder -> foreign crates it must not name.
@@ -23,6 +24,7 @@ const NEVER: &[(&str, &[&str])] = &[
     ("backends/wgpu", &["ron", "gltf", "rayon"]),
     ("examples/scenes", &["wgpu", "naga", "ron"]),
     ("examples/charts", &["wgpu", "naga", "ron", "gltf", "rayon"]),
+    ("examples/measure", &["wgpu", "naga", "ron", "gltf"]),
 ];
 
 pub fn crates_use_only_what_they_may() -> Vec<String> {

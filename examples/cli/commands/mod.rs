@@ -1,6 +1,8 @@
 //! One file a subcommand. Each returns what to print and the exit status; only `main` prints.
 
+pub mod chart;
 pub mod check;
+pub mod compare;
 pub mod export;
 pub mod graph;
 pub mod passes;

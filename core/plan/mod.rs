@@ -1,5 +1,8 @@
 //! The plan: all that a backend ever sees.
 
+mod given;
+mod pinned;
+
 use crate::array::Element;
 use crate::param::Params;
 use crate::pass::Pass;

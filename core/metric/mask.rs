@@ -1,5 +1,4 @@
-//! How far a result is from the truth. Every metric ships with controls in its tests: identity, a planted change of known
-//! value, swapped inputs, and input that must be refused.
+//! Visibility masks bit by bit.
 
 /// Bits that differ between two visibility masks.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -46,9 +45,7 @@ pub fn mask_difference(
         difference.rows_count += 1;
         difference.bits_count += light_samples as u64;
         let mut wrong = 0;
-        for (word, (test, truth)) in test.iter().zip(truth).enumerate() {
-            let bits = light_samples.saturating_sub(word * 32).min(32);
-            let live = if bits == 32 { u32::MAX } else { (1 << bits) - 1 };
+        for ((test, live), truth) in row_bits(test, light_samples).zip(truth) {
             let shadow = (test & !truth & live).count_ones();
             let lit = (truth & !test & live).count_ones();
             difference.false_shadow_count += u64::from(shadow);
@@ -60,6 +57,14 @@ pub fn mask_difference(
         }
     }
     difference
+}
+
+/// The words of a row, each with the bits of it that stand for one of the `light_samples`.
+pub(super) fn row_bits(row: &[u32], light_samples: usize) -> impl Iterator<Item = (u32, u32)> {
+    row.iter().enumerate().map(move |(index, word)| {
+        let bits = light_samples.saturating_sub(index * 32).min(32);
+        (*word, if bits == 32 { u32::MAX } else { (1 << bits) - 1 })
+    })
 }
 
 #[cfg(test)]

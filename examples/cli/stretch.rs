@@ -1,0 +1,258 @@
+//! Stretches of nodes on one backend, whole or over one range of view-samples after another.
+
+use crate::engine::Machine;
+use crate::jitter;
+use crate::job::Job;
+use crate::outcome::{Outcome, Spread};
+use crate::ranges::{self, Ranges};
+use shadowgraph_core::array::Array;
+use shadowgraph_core::plan::{Backend, Plan};
+use shadowgraph_core::problem::Problem;
+use shadowgraph_core::reading::Reading;
+use shadowgraph_cpu::{Progress, Store};
+use shadowgraph_wgpu::{Options, Ready};
+use std::ops::Range;
+use std::time::Instant;
+
+/// What one node did.
+pub struct Ran {
+    /// Index into the plan's nodes.
+    pub node: usize,
+    /// Its time, or the median of its times; milliseconds.
+    pub millis: Option<f64>,
+    /// When it last ran, milliseconds since its stretch began.
+    pub reading: Reading,
+    /// Size of its outputs.
+    pub bytes: usize,
+    /// Whose clock.
+    pub clock: &'static str,
+    /// Counts in the order of its pass's counters.
+    pub counts: Vec<u64>,
+}
+
+/// How stretches of nodes run.
+pub struct How<'a> {
+    /// On what.
+    pub machine: &'a Machine,
+    /// On which inputs.
+    pub job: &'a Job,
+    /// Timed runs of each stretch on wgpu.
+    pub repeat: u32,
+    /// Whether each stretch on wgpu runs once untimed first.
+    pub is_warmed_up: bool,
+    /// Whether nodes on wgpu are timed, which costs.
+    pub timers: bool,
+    /// Told what is done.
+    pub progress: &'a Progress<'a>,
+}
+
+impl<'a> How<'a> {
+    /// Every node once, timed, without a warm-up.
+    pub fn once(machine: &'a Machine, job: &'a Job, progress: &'a Progress<'a>) -> Self {
+        Self { machine, job, repeat: 1, is_warmed_up: false, timers: true, progress }
+    }
+
+    /// Neighbouring nodes on one backend.
+    pub fn stretch(
+        &self,
+        plan: &Plan,
+        nodes: Range<usize>,
+        store: &mut Store,
+        frame: &mut Frame,
+    ) -> Result<(), Problem> {
+        let (millis, runs) = match plan.nodes[nodes.start].on {
+            Backend::Cpu => run_cpu(plan, nodes, self.job.image, store, self.progress)?,
+            Backend::Wgpu => self.run_wgpu(plan, nodes, store)?,
+        };
+        frame.add(millis, runs);
+        Ok(())
+    }
+
+    fn run_wgpu(&self, plan: &Plan, nodes: Range<usize>, store: &mut Store) -> Stretch {
+        let options = Options { timers: self.timers, ..Options::default() };
+        let session = self.machine.session()?;
+        let ready = session.ready(plan, nodes, &|slot| store.try_get(slot), self.job.image, &options)?;
+        let frames = match self.is_warmed_up {
+            true => (0..self.repeat).map(|_| ready.frame(self.timers)).collect::<Result<_, _>>()?,
+            false => vec![ready.first()],
+        };
+        let runs = ran(&ready, &frames)?;
+        for (slot, array) in ready.arrays()? {
+            store.put(slot, array);
+        }
+        let millis: Vec<f64> = frames.iter().map(|frame| frame.millis).collect();
+        Ok((Spread::of(&millis).median, runs))
+    }
+
+    /// Nodes that look at everything once, then the others over one part of the view-samples after another.
+    pub fn in_ranges(
+        &self,
+        plan: &Plan,
+        ranges: &Ranges,
+        count: usize,
+        store: &mut Store,
+        frame: &mut Frame,
+    ) -> Result<(), Problem> {
+        let (taken, kept) = (ranges.taken(plan), ranges.kept(plan));
+        let pixels = plan.slots.iter().position(|slot| slot.port.quantity == PIXEL);
+        let mut whole = plan.clone();
+        for slot in taken.iter().chain(&pixels) {
+            whole.slots[*slot].keep = true;
+        }
+        for stretch in ranges.stretches(plan, false) {
+            self.stretch(&whole, stretch, store, frame)?;
+        }
+        let parts = self.parts(&taken, pixels, plan, store, count);
+        let mut made: Vec<Vec<(Array, &[usize])>> = vec![Vec::new(); kept.len()];
+        for (set, rows) in &parts {
+            let of_set = self.job.set_inputs(*set);
+            let mut part = Store::new(plan);
+            for slot in &taken {
+                let name = &plan.slots[*slot].name;
+                let array = match of_set.iter().find(|(input, _)| input == name) {
+                    Some((_, array)) => array.clone(),
+                    None if ranges::is_rows(&plan.slots[*slot].port) => ranges::gather(store.get(*slot), rows),
+                    None => store.get(*slot).clone(),
+                };
+                part.put(*slot, array);
+            }
+            for stretch in ranges.stretches(plan, true) {
+                self.stretch(plan, stretch, &mut part, frame)?;
+            }
+            for (made, slot) in made.iter_mut().zip(&kept) {
+                made.extend(part.take(*slot).map(|array| (array, rows.as_slice())));
+            }
+        }
+        for (made, slot) in made.into_iter().zip(kept) {
+            if let Some(array) = ranges::join(&plan.slots[slot].port, made) {
+                store.put(slot, array);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sample set and rows of each part.
+    fn parts(
+        &self,
+        taken: &[usize],
+        pixels: Option<usize>,
+        plan: &Plan,
+        store: &Store,
+        count: usize,
+    ) -> Vec<(usize, Vec<usize>)> {
+        let mut by_set = Vec::new();
+        match pixels.and_then(|slot| store.try_get(slot)).filter(|_| self.job.sets.len() > 1) {
+            Some(pixels) => {
+                let set_of = |column, row| jitter::set_of(column, row, self.job.jitter_side);
+                by_set = ranges::by_set(pixels.as_u32(), self.job.image[0], set_of, self.job.sets.len());
+            }
+            None => {
+                let rows = taken.iter().find(|slot| ranges::is_rows(&plan.slots[**slot].port));
+                by_set.push((0..rows.map_or(0, |slot| store.get(*slot).dim(0))).collect());
+            }
+        }
+        let cut = |(set, rows): (usize, Vec<usize>)| {
+            let ranges = ranges::split(rows.len(), count).into_iter();
+            ranges.map(move |range| (set, rows[range].to_vec())).collect::<Vec<_>>()
+        };
+        by_set.into_iter().enumerate().flat_map(cut).collect()
+    }
+}
+
+/// Quantity of the port that says which pixel a view-sample is seen through.
+const PIXEL: &str = "pixel";
+
+/// One run of all nodes.
+pub struct Frame {
+    /// All stretches together, without what lies between them.
+    pub millis: f64,
+    /// By node. One that runs over several ranges has its times, bytes and counts added up.
+    pub nodes: Vec<Option<Ran>>,
+    /// Each time a node ran: its index, and when, milliseconds since the first stretch began. What lies between stretches is left out.
+    pub pieces: Vec<(usize, Reading)>,
+}
+
+impl Frame {
+    /// Nothing has run.
+    pub fn new(plan: &Plan) -> Self {
+        Self { millis: 0.0, nodes: plan.nodes.iter().map(|_| None).collect(), pieces: Vec::new() }
+    }
+
+    /// Takes a stretch in.
+    pub fn add(&mut self, millis: f64, runs: Vec<Ran>) {
+        let from = self.millis;
+        self.millis += millis;
+        for run in runs {
+            self.pieces.push((run.node, run.reading.later(from)));
+            let place = &mut self.nodes[run.node];
+            *place = Some(match place.take() {
+                None => run,
+                Some(earlier) => Ran {
+                    millis: earlier.millis.zip(run.millis).map(|(a, b)| a + b),
+                    bytes: earlier.bytes + run.bytes,
+                    counts: earlier.counts.iter().zip(&run.counts).map(|(a, b)| a + b).collect(),
+                    ..run
+                },
+            });
+        }
+    }
+
+    /// Adds to a record of runs.
+    pub fn record(self, plan: &Plan, outcome: &mut Outcome, is_timed: bool) {
+        for run in self.nodes.into_iter().flatten() {
+            let record = &mut outcome.nodes[run.node];
+            let counters = plan.nodes[run.node].pass.counters;
+            (record.bytes, record.clock) = (run.bytes, run.clock);
+            record.counts = counters.iter().map(|counter| counter.name).zip(run.counts).collect();
+            if is_timed {
+                record.millis.extend(run.millis);
+            }
+        }
+        if is_timed {
+            outcome.frames_millis.push(self.millis);
+        }
+    }
+}
+
+/// What the nodes of a stretch on wgpu did in some frames.
+///
+/// # Errors
+/// What the device reports; a count that had to be zero.
+pub fn ran(ready: &Ready, frames: &[shadowgraph_wgpu::ready::Frame]) -> Result<Vec<Ran>, Problem> {
+    let (counts, bytes) = (ready.counts()?, ready.bytes());
+    let clock = frames.last().map_or("", |frame| frame.clock.text());
+    let one = |(index, counts): (usize, Vec<u64>)| {
+        let times: Vec<f64> = frames.iter().filter_map(|frame| frame.nodes[index].millis()).collect();
+        Ran {
+            node: ready.nodes().start + index,
+            millis: (!times.is_empty()).then(|| Spread::of(&times).median),
+            reading: frames.last().map_or(Reading::Untimed, |frame| frame.nodes[index]),
+            bytes: bytes[index] as usize,
+            clock,
+            counts,
+        }
+    };
+    Ok(counts.into_iter().enumerate().map(one).collect())
+}
+
+/// Milliseconds of the whole stretch of nodes, and its nodes.
+type Stretch = Result<(f64, Vec<Ran>), Problem>;
+
+fn run_cpu(plan: &Plan, range: Range<usize>, image: [usize; 2], store: &mut Store, progress: &Progress) -> Stretch {
+    let start = Instant::now();
+    let mut runs = Vec::new();
+    for node in range {
+        progress(&plan.nodes[node].id, 0, 1);
+        let begin = start.elapsed().as_secs_f64() * 1e3;
+        let run = shadowgraph_cpu::run(plan, node, image, store, progress)?;
+        runs.push(Ran {
+            node,
+            millis: Some(run.millis),
+            reading: Reading::of(begin, begin + run.millis),
+            bytes: run.bytes,
+            clock: "host clock around the function",
+            counts: run.counts,
+        });
+    }
+    Ok((start.elapsed().as_secs_f64() * 1e3, runs))
+}
