@@ -23,6 +23,7 @@ pub mod ranges;
 pub mod record;
 pub mod report;
 pub mod stretch;
+pub mod suggest;
 pub mod texture;
 pub mod trial;
 pub mod verify;

@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use shadowgraph::args::{Cli, Command};
-use shadowgraph::commands::{chart, check, compare, export, graph, passes, render, scenes, verify};
+use shadowgraph::commands::{chart, check, compare, export, graph, passes, render, scenes, suggest, verify};
 use shadowgraph_core::problem::Problems;
 use std::io::Write;
 use std::process::ExitCode;
@@ -36,6 +36,7 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
         Command::Verify(args) => args.run.threads,
         Command::Compare(args) => args.threads,
         Command::Chart(args) => args.threads,
+        Command::Suggest(args) => args.threads,
         _ => 0,
     };
     // Only fails when a pool exists already, which none does here.
@@ -45,6 +46,7 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
         Command::Verify(args) => verify::text(&catalogue, args)?,
         Command::Compare(args) => compare::text(&catalogue, args)?,
         Command::Chart(args) => (chart::text(&catalogue, args)?, true),
+        Command::Suggest(args) => suggest::text(&catalogue, args)?,
         Command::Merge(args) => (chart::merge_text(args)?, true),
         Command::Check(args) => check::text(&catalogue, args),
         Command::Graph(args) => (graph::text(&catalogue, args)?, true),

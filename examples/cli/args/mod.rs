@@ -8,6 +8,7 @@ mod listings;
 mod render;
 mod run;
 mod scene;
+mod suggest;
 mod verify;
 
 pub use chart::{ChartArgs, MergeArgs};
@@ -18,6 +19,7 @@ pub use listings::{ExportArgs, PassesArgs, ScenesArgs};
 pub use render::RenderArgs;
 pub use run::{BackendChoice, RunChoice};
 pub use scene::{GeneratorChoice, LightChoice, SceneChoice, ShapeChoice};
+pub use suggest::SuggestArgs;
 pub use verify::VerifyArgs;
 
 use clap::{Parser, Subcommand};
@@ -50,6 +52,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Run a suite of scenes and variants: milliseconds against error, as one page, charts and tables
     Chart(ChartArgs),
+    /// Find the cheapest variant that is right enough on a scene, or the most right one that is fast enough, as a graph file
+    Suggest(SuggestArgs),
     /// Make one folder of the parts of a sharded chart run
     Merge(MergeArgs),
     /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU

@@ -17,7 +17,7 @@ use shadowgraph_charts::model::{NodeCost, Point, Provenance};
 use shadowgraph_core::array::Array;
 use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::plan::{Backend, Plan};
-use shadowgraph_core::problem::{Problem, Problems};
+use shadowgraph_core::problem::{Kind, Problem, Problems};
 use shadowgraph_graph::{Keep, plan_id};
 use std::collections::HashMap;
 use std::time::SystemTime;
@@ -43,10 +43,27 @@ pub struct How<'a> {
     pub bar: &'a Bar,
 }
 
+/// What variants can run on. One that does not exist is the failure of those that name it.
+struct Machines {
+    asked: Result<Machine, Problem>,
+    cpu: Result<Machine, Problem>,
+    wgpu: Result<Machine, Problem>,
+}
+
+impl Machines {
+    /// Those that a variant is to run on.
+    fn of(&self, suite: &Suite, variant: &Variant) -> Vec<&Result<Machine, Problem>> {
+        let named = if variant.backends.is_empty() { &suite.backends } else { &variant.backends };
+        let named = named.iter().map(|name| if *name == "cpu" { &self.cpu } else { &self.wgpu });
+        let named: Vec<_> = named.collect();
+        if named.is_empty() { vec![&self.asked] } else { named }
+    }
+}
+
 /// One variant on one scene and backend.
 struct Case<'a> {
     variant: &'a Variant,
-    machine: &'a Machine,
+    machine: Option<&'a Machine>,
     backend: Backend,
     /// What it is without answers and times.
     point: Point,
@@ -57,16 +74,13 @@ struct Case<'a> {
 /// Runs what the store does not have yet.
 ///
 /// # Errors
-/// The store cannot be written; no device for a backend that the suite names. What a variant or a scene reports becomes the
-/// failure of its points.
+/// The store cannot be written. What a variant, a scene or a device reports becomes the failure of its points.
 pub fn run(suite: &Suite, store: &mut Store, how: &How) -> Result<(), Problems> {
-    let backends: Vec<BackendChoice> = match suite.backends.as_slice() {
-        [] => vec![how.backend],
-        named => {
-            named.iter().map(|name| if *name == "cpu" { BackendChoice::Cpu } else { BackendChoice::Wgpu }).collect()
-        }
+    let machines = Machines {
+        asked: Machine::new(how.backend),
+        cpu: Machine::new(BackendChoice::Cpu),
+        wgpu: Machine::new(BackendChoice::Wgpu),
     };
-    let machines = backends.into_iter().map(Machine::new).collect::<Result<Vec<_>, Problem>>()?;
     let scenes = suite.scenes.iter().filter(|scene| how.scenes.is_empty() || how.scenes.contains(&scene.name));
     let scenes: Vec<&SceneEntry> = scenes.collect();
     for (index, scene) in scenes.iter().enumerate() {
@@ -79,7 +93,7 @@ pub fn run(suite: &Suite, store: &mut Store, how: &How) -> Result<(), Problems> 
 fn run_scene(
     suite: &Suite,
     scene: &SceneEntry,
-    machines: &[Machine],
+    machines: &Machines,
     store: &mut Store,
     how: &How,
     about: &str,
@@ -89,7 +103,8 @@ fn run_scene(
     let [part, parts] = how.shard;
     let mut jobs = Jobs::new(scene);
     let mut cases = Vec::new();
-    let all = variants.flat_map(|variant| machines.iter().map(move |machine| (variant, machine)));
+    let all =
+        variants.flat_map(|variant| machines.of(suite, variant).into_iter().map(move |machine| (variant, machine)));
     for (_, (variant, machine)) in all.enumerate().filter(|(index, _)| index % parts == part) {
         cases.push(case(suite, scene, variant, machine, &mut jobs, how));
     }
@@ -138,12 +153,12 @@ fn time(
             let case = &cases[place];
             let at = round as u64 * cases.len() as u64 + place as u64;
             how.bar.set(&format!("{about}: round {} of {}", round + 1, suite.rounds), at, total);
-            let (id, Some(plan)) = (&case.point.id, &case.plan) else { continue };
+            let (id, Some(plan), Some(machine)) = (&case.point.id, &case.plan, case.machine) else { continue };
             let known = done.get(id);
             if failed(id, store) || known.is_some_and(|millis| millis.len() > round) || is_enough(known) {
                 continue;
             }
-            match timed(case, plan, jobs, round) {
+            match timed(case, plan, machine, jobs, round) {
                 Ok(round) => {
                     done.entry(id.clone()).or_default().push(round.millis);
                     store.add_round(round)?;
@@ -162,10 +177,10 @@ fn time(
 }
 
 /// One round of one variant: a frame untimed, then one, or several if they are short, of which the median counts.
-fn timed(case: &Case, plan: &Plan, jobs: &mut Jobs, round: usize) -> Result<Round, Problems> {
+fn timed(case: &Case, plan: &Plan, machine: &Machine, jobs: &mut Jobs, round: usize) -> Result<Round, Problems> {
     let job = jobs.get(case.variant.light_samples)?;
     let options = shadowgraph_wgpu::Options::default();
-    let mut trial = Trial::new(case.machine, plan, &job, &[], &options, &|_, _, _| {})?;
+    let mut trial = Trial::new(machine, plan, &job, &[], &options, &|_, _, _| {})?;
     let mut frame = trial.frame(false)?;
     let mut millis = vec![frame.millis];
     if frame.millis < SHORT_MILLIS {
@@ -220,7 +235,8 @@ fn answer(
     let job = jobs.get(samples)?.importing(truths.view_samples(jobs, how)?);
     let keep = Keep::AllLivePorts;
     let plan = graph_choice::plan(&case.variant.choice, how.catalogue, Some(&job.facts), case.backend, keep)?;
-    let outcome = case.machine.run(&plan, &job, 1, &|_, _, _| {})?;
+    let Some(machine) = case.machine else { unreachable!("a case without a machine has failed before") };
+    let outcome = machine.run(&plan, &job, 1, &|_, _, _| {})?;
     Ok((Answers::of(&plan, &outcome, &job)?, Truth { bits: Some(bits), grey }))
 }
 
@@ -234,11 +250,11 @@ fn case<'a>(
     suite: &Suite,
     scene: &SceneEntry,
     variant: &'a Variant,
-    machine: &'a Machine,
+    machine: &'a Result<Machine, Problem>,
     jobs: &mut Jobs,
     how: &How,
 ) -> Case<'a> {
-    let backend = machine.default_backend;
+    let backend = machine.as_ref().map_or(Backend::Wgpu, |machine| machine.default_backend);
     let mut point = Point {
         suite: suite.name.clone(),
         scene: scene.name.clone(),
@@ -252,15 +268,19 @@ fn case<'a>(
         ..Point::default()
     };
     let planned = jobs.get(variant.light_samples).and_then(|job| {
+        // What a light is shows only when it has more than one sample.
+        if let Some(why) = variant.ruled_out(&jobs.get(suite.reference)?.facts) {
+            return Err(Problem::new(Kind::Unsupported, format!("not tried: {why}")).into());
+        }
         let keep = Keep::OutputsOnly;
         let plan = graph_choice::plan(&variant.choice, how.catalogue, Some(&job.facts), backend, keep)?;
-        Ok((job, plan))
+        Ok((job, plan, machine.as_ref().map_err(Clone::clone)?))
     });
     let mut number = Number::default();
     number.text(&format!("{} {} {} {}", point.suite, point.scene, point.graph, point.label));
     number.text(&format!("{} {} {}", point.backend, suite.reference, scene.choice.size));
     let plan = match planned {
-        Ok((job, plan)) => {
+        Ok((job, plan, machine)) => {
             let sources = plan.nodes.iter().filter_map(|node| shadowgraph_passes::source_id(node.pass));
             let mut graph = Number::default();
             graph.text(&plan_id(&plan));
@@ -291,7 +311,7 @@ fn case<'a>(
         }
     };
     point.id = number.hex();
-    Case { variant, machine, backend, point, plan }
+    Case { variant, machine: machine.as_ref().ok(), backend, point, plan }
 }
 
 /// The scene with so many light samples, loaded once each.

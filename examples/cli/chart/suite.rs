@@ -15,7 +15,8 @@
 //!     methods: [
 //!         (graph: "soft_shafts", light_samples: [16, 64, 256], quality: "light_samples"),
 //!         (graph: "shadow_map", axes: {"light_depth.size": ["512", "2048"]}, quality: "light_depth.size"),
-//!         (graph: "hard", axes: {"visibility": ["planes", "fused"]}, only: ["columns"]),
+//!         (graph: "soft_lu_planar", light_samples: 64, when: "light_is_planar"),     // facts that a scene must have, or not
+//!         (graph: "hard", axes: {"visibility": ["planes", "fused"]}, only: ["columns"], backends: [wgpu]),
 //!     ],
 //! )
 //! ```
@@ -23,13 +24,17 @@
 use crate::args::{GraphChoice, SceneChoice};
 use crate::{file_problem, usage_problem};
 use clap::Parser;
+use shadowgraph_core::facts::Facts;
 use shadowgraph_core::problem::{Kind, Problem, Problems};
 use shadowgraph_graph::{Data, Field, Name, Reader, Source, Tree, nearest, read_ron};
 use std::path::Path;
 
 /// Suites that come with the program.
-const BUILTIN: &[(&str, &str)] =
-    &[("chart", include_str!("../../suites/chart.ron")), ("chart_small", include_str!("../../suites/chart_small.ron"))];
+const BUILTIN: &[(&str, &str)] = &[
+    ("chart", include_str!("../../suites/chart.ron")),
+    ("chart_small", include_str!("../../suites/chart_small.ron")),
+    ("suggest", include_str!("../../suites/suggest.ron")),
+];
 /// Most variants of one method.
 const MOST_VARIANTS: usize = 1000;
 
@@ -68,6 +73,8 @@ pub struct SceneEntry {
 pub struct Variant {
     /// Graph, swaps, settings.
     pub choice: GraphChoice,
+    /// What the file sets for all variants of the method.
+    pub fixed: Vec<String>,
     /// Axis and value, in the order of the file; `light_samples` is one.
     pub choices: Vec<(String, String)>,
     /// Which axis is the method's quality.
@@ -76,23 +83,38 @@ pub struct Variant {
     pub light_samples: u32,
     /// Names of the scenes it is for; none: all.
     pub only: Vec<String>,
+    /// Where it runs; none: as the suite says.
+    pub backends: Vec<&'static str>,
+    /// A fact of the scene that must hold for it to be tried.
+    pub when: Option<String>,
+    /// A fact that must not hold.
+    pub unless: Option<String>,
 }
 
 impl Variant {
-    /// Unlike that of any other variant of the graph: values of the axes, or the graph's name where it has none.
+    /// Unlike that of any other variant: the graph's name and values of the axes.
     pub fn label(&self) -> String {
-        if self.choices.is_empty() {
-            return self.graph_name();
-        }
-        let part = |(axis, value): &(String, String)| match axis.as_str() {
+        let short = |place: &str| place.rsplit('.').next().unwrap_or(place).to_string();
+        let of_axis = |(axis, value): &(String, String)| match axis.as_str() {
             "light_samples" => format!("{value} samples"),
-            _ => format!("{}={value}", axis.rsplit('.').next().unwrap_or(axis)),
+            _ => format!("{}={value}", short(axis)),
         };
-        self.choices.iter().map(part).collect::<Vec<_>>().join(", ")
+        let mut parts = vec![self.graph_name()];
+        parts.extend(self.fixed.iter().map(|text| match text.split_once('=') {
+            Some((place, value)) => format!("{}={value}", short(place)),
+            None => text.clone(),
+        }));
+        parts.extend(self.choices.iter().map(of_axis));
+        parts.join(", ")
     }
-}
 
-impl Variant {
+    /// Why the facts of a scene rule it out, if they do.
+    pub fn ruled_out(&self, facts: &Facts) -> Option<String> {
+        let holds = |name: &String| facts.get(name).unwrap_or(false);
+        let when = self.when.as_ref().filter(|name| !holds(name)).map(|name| format!("{name} does not hold"));
+        when.or_else(|| self.unless.as_ref().filter(|name| holds(name)).map(|name| format!("{name} holds")))
+    }
+
     /// The graph's name without folder and ending.
     pub fn graph_name(&self) -> String {
         let path = Path::new(&self.choice.graph);
@@ -156,15 +178,7 @@ fn suite(tree: &Tree, reader: &mut Reader, scenes_folder: Option<&Path>) -> Opti
     };
     let reference = whole(reader, "reference", 1..=4096, 1024);
     let rounds = whole(reader, "rounds", 1..=1000, 7);
-    let mut backends = Vec::new();
-    if let Some(value) = value(&fields, "backends") {
-        for item in reader.items(value, "backends") {
-            backends.extend(reader.word(item, "backends", &["cpu", "wgpu"]).map(|word| match word {
-                "cpu" => "cpu",
-                _ => "wgpu",
-            }));
-        }
-    }
+    let backends = backends_of(&fields, reader);
     let mut scenes: Vec<SceneEntry> = Vec::new();
     if let Some(list) = reader.needed(tree, &fields, "scenes", "a suite") {
         for item in reader.items(list, "scenes") {
@@ -183,6 +197,16 @@ fn suite(tree: &Tree, reader: &mut Reader, scenes_folder: Option<&Path>) -> Opti
         }
     }
     Some(Suite { name: name?.text, doc, size, backends, reference, rounds, scenes, variants })
+}
+
+fn backends_of(fields: &[&Field], reader: &mut Reader) -> Vec<&'static str> {
+    let mut backends = Vec::new();
+    if let Some(value) = value(fields, "backends") {
+        for item in reader.items(value, "backends") {
+            backends.extend(reader.word(item, "backends", &["cpu", "wgpu"]));
+        }
+    }
+    backends
 }
 
 fn value<'t>(fields: &[&'t Field], name: &str) -> Option<&'t Tree> {
@@ -236,7 +260,11 @@ fn scene(tree: &Tree, reader: &mut Reader, size: &str, folder: Option<&Path>) ->
 }
 
 fn method(tree: &Tree, reader: &mut Reader, scenes: &[SceneEntry]) -> Option<Vec<Variant>> {
-    let fields = reader.fields(tree, &["graph", "light_samples", "set", "axes", "quality", "only"], "a method")?;
+    let fields = reader.fields(
+        tree,
+        &["graph", "light_samples", "set", "axes", "quality", "only", "backends", "when", "unless"],
+        "a method",
+    )?;
     let graph = reader.needed(tree, &fields, "graph", "a method");
     let graph = graph.and_then(|value| reader.name(value, "graph"))?;
     let mut axes: Vec<(String, Vec<String>)> = Vec::new();
@@ -288,13 +316,30 @@ fn method(tree: &Tree, reader: &mut Reader, scenes: &[SceneEntry]) -> Option<Vec
         return None;
     }
     let first = Variant {
+        fixed: fixed.swap.iter().chain(&fixed.set).cloned().collect(),
         choice: fixed,
         choices: Vec::new(),
         quality: quality.map(|quality| quality.text),
         light_samples: 1,
         only: only.into_iter().map(|name| name.text).collect(),
+        backends: backends_of(&fields, reader),
+        when: fact(&fields, "when", reader),
+        unless: fact(&fields, "unless", reader),
     };
     Some(combinations(first, &axes))
+}
+
+/// The name of a fact, as graph files have them.
+fn fact(fields: &[&Field], field: &str, reader: &mut Reader) -> Option<String> {
+    let name = reader.name(value(fields, field)?, field)?;
+    let known = Facts::NAMES.iter().map(|(name, _)| *name);
+    if !known.clone().any(|known| known == name.text) {
+        let problem = Problem::new(Kind::UnknownName, "there is no such fact").found(&name.text);
+        let near = nearest(&name.text, known.clone()).map(|near| format!("did you mean {near}?"));
+        let remedy = near.unwrap_or_else(|| format!("facts are {}", known.collect::<Vec<_>>().join(", ")));
+        reader.problem(name.span, problem.remedy(remedy));
+    }
+    Some(name.text)
 }
 
 /// `NODE=PASS` or `NODE.PARAM=VALUE`.

@@ -8,4 +8,5 @@ pub mod graph;
 pub mod passes;
 pub mod render;
 pub mod scenes;
+pub mod suggest;
 pub mod verify;
