@@ -42,6 +42,8 @@ pub struct How<'a> {
     pub is_warmed_up: bool,
     /// Whether nodes on wgpu are timed, which costs.
     pub timers: bool,
+    /// How memory on wgpu is used; what it says of frames and timers does not count.
+    pub options: Options,
     /// Told what is done.
     pub progress: &'a Progress<'a>,
 }
@@ -49,7 +51,7 @@ pub struct How<'a> {
 impl<'a> How<'a> {
     /// Every node once, timed, without a warm-up.
     pub fn once(machine: &'a Machine, job: &'a Job, progress: &'a Progress<'a>) -> Self {
-        Self { machine, job, repeat: 1, is_warmed_up: false, timers: true, progress }
+        Self { machine, job, repeat: 1, is_warmed_up: false, timers: true, options: Options::default(), progress }
     }
 
     /// Neighbouring nodes on one backend.
@@ -69,7 +71,7 @@ impl<'a> How<'a> {
     }
 
     fn run_wgpu(&self, plan: &Plan, nodes: Range<usize>, store: &mut Store) -> Stretch {
-        let options = Options { timers: self.timers, ..Options::default() };
+        let options = Options { timers: self.timers, ..self.options.clone() };
         let session = self.machine.session()?;
         let ready = session.ready(plan, nodes, &|slot| store.try_get(slot), self.job.image, &options)?;
         let frames = match self.is_warmed_up {

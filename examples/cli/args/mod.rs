@@ -3,6 +3,7 @@
 mod check;
 mod graph;
 mod listings;
+mod profile;
 mod render;
 mod run;
 mod scene;
@@ -11,8 +12,9 @@ mod verify;
 pub use check::CheckArgs;
 pub use graph::{GraphArgs, GraphChoice};
 pub use listings::{ExportArgs, PassesArgs, ScenesArgs};
+pub use profile::ProfileArgs;
 pub use render::RenderArgs;
-pub use run::{BackendChoice, RunChoice};
+pub use run::{BackendChoice, MachineChoice, RunChoice};
 pub use scene::{GeneratorChoice, LightChoice, SceneChoice, ShapeChoice};
 pub use verify::VerifyArgs;
 
@@ -31,6 +33,7 @@ const EXAMPLES: &str = "Examples:
   shadowgraph render hard --scene builtin:columns --out out
   shadowgraph render hard --scene scene.glb --views views.json --view overview --swap visibility=fused
   shadowgraph verify hard --scene builtin:contact --backend wgpu
+  shadowgraph profile hard --backend wgpu --trace trace.json
   shadowgraph check my_graph.ron
   shadowgraph graph hard --svg > hard.svg
   shadowgraph passes visibility";
@@ -42,6 +45,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Run a graph and the exact truth on the same view-samples, and report wrong bits
     Verify(VerifyArgs),
+    /// Time each node of a graph, within whole frames and alone, with what it counted, its memory, and how far the clocks can be trusted
+    Profile(ProfileArgs),
     /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU
     Check(CheckArgs),
     /// Print a graph: its plan, or a drawing

@@ -4,6 +4,7 @@ pub mod check;
 pub mod export;
 pub mod graph;
 pub mod passes;
+pub mod profile;
 pub mod render;
 pub mod scenes;
 pub mod verify;
