@@ -6,6 +6,7 @@ use crate::job::Job;
 use crate::outcome::{Outcome, Spread};
 use crate::ranges::{self, Ranges};
 use shadowgraph_core::array::Array;
+use shadowgraph_core::pass::CounterKind;
 use shadowgraph_core::plan::{Backend, Plan};
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::reading::Reading;
@@ -66,7 +67,7 @@ impl<'a> How<'a> {
             Backend::Cpu => run_cpu(plan, nodes, self.job.image, store, self.progress)?,
             Backend::Wgpu => self.run_wgpu(plan, nodes, store)?,
         };
-        frame.add(millis, runs);
+        frame.add(plan, millis, runs);
         Ok(())
     }
 
@@ -168,7 +169,7 @@ const PIXEL: &str = "pixel";
 pub struct Frame {
     /// All stretches together, without what lies between them.
     pub millis: f64,
-    /// By node. One that runs over several ranges has its times, bytes and counts added up.
+    /// By node. One that runs over several ranges has its times, bytes and counts added up; of largest counts it has the largest.
     pub nodes: Vec<Option<Ran>>,
     /// Each time a node ran: its index, and when, milliseconds since the first stretch began. What lies between stretches is left out.
     pub pieces: Vec<(usize, Reading)>,
@@ -181,7 +182,7 @@ impl Frame {
     }
 
     /// Takes a stretch in.
-    pub fn add(&mut self, millis: f64, runs: Vec<Ran>) {
+    pub fn add(&mut self, plan: &Plan, millis: f64, runs: Vec<Ran>) {
         let from = self.millis;
         self.millis += millis;
         for run in runs {
@@ -192,7 +193,11 @@ impl Frame {
                 Some(earlier) => Ran {
                     millis: earlier.millis.zip(run.millis).map(|(a, b)| a + b),
                     bytes: earlier.bytes + run.bytes,
-                    counts: earlier.counts.iter().zip(&run.counts).map(|(a, b)| a + b).collect(),
+                    counts: {
+                        let counters = plan.nodes[run.node].pass.counters.iter();
+                        let both = earlier.counts.iter().zip(&run.counts);
+                        counters.zip(both).map(|(counter, (a, b))| counter.kind.joined(*a, *b)).collect()
+                    },
                     ..run
                 },
             });
@@ -205,7 +210,9 @@ impl Frame {
             let record = &mut outcome.nodes[run.node];
             let counters = plan.nodes[run.node].pass.counters;
             (record.bytes, record.clock) = (run.bytes, run.clock);
-            record.counts = counters.iter().map(|counter| counter.name).zip(run.counts).collect();
+            let is_kept = |kind| kind != CounterKind::OnCpu || plan.nodes[run.node].on == Backend::Cpu;
+            let counted = counters.iter().zip(run.counts).filter(|(counter, _)| is_kept(counter.kind));
+            record.counts = counted.map(|(counter, count)| (counter.name, count)).collect();
             if is_timed {
                 record.millis.extend(run.millis);
             }

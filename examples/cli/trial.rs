@@ -48,7 +48,7 @@ impl<'a> Trial<'a> {
                 let made = session.ready(plan, nodes, &|slot| store.try_get(slot), job.image, options)?;
                 let first = made.first();
                 let mut frame = Frame::new(plan);
-                frame.add(first.millis, ran(&made, &[first])?);
+                frame.add(plan, first.millis, ran(&made, &[first])?);
                 for (slot, array) in made.arrays()? {
                     store.put(slot, array);
                 }
@@ -96,7 +96,7 @@ impl<'a> Trial<'a> {
         let _entered = span.enter();
         let times = ready.frame(timers)?;
         let mut frame = Frame::new(self.plan);
-        frame.add(times.millis, ran(ready, &[times])?);
+        frame.add(self.plan, times.millis, ran(ready, &[times])?);
         Ok(frame)
     }
 
