@@ -5,6 +5,7 @@ mod baselines;
 mod bench;
 mod closed_form;
 mod contamination;
+mod counters;
 mod device_raster;
 mod docs;
 mod frames;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
     trials.extend(pairs::trials());
     trials.extend(area_lights::trials());
     trials.extend(contamination::trials());
+    trials.extend(counters::trials());
     trials.extend(ranges::trials());
     trials.extend(device_raster::trials());
     trials.extend(truth::trials());

@@ -19,6 +19,7 @@ pub mod npy;
 pub mod outcome;
 pub mod picture;
 pub mod port_difference;
+pub mod profile;
 pub mod ranges;
 pub mod record;
 pub mod report;

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod graph;
 mod listings;
+mod profile;
 mod render;
 mod run;
 mod scene;
@@ -16,8 +17,9 @@ pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use graph::{GraphArgs, GraphChoice};
 pub use listings::{ExportArgs, PassesArgs, ScenesArgs};
+pub use profile::ProfileArgs;
 pub use render::RenderArgs;
-pub use run::{BackendChoice, RunChoice};
+pub use run::{BackendChoice, MachineChoice, RunChoice};
 pub use scene::{GeneratorChoice, LightChoice, SceneChoice, ShapeChoice};
 pub use suggest::SuggestArgs;
 pub use verify::VerifyArgs;
@@ -37,6 +39,7 @@ const EXAMPLES: &str = "Examples:
   shadowgraph render hard --scene builtin:columns --out out
   shadowgraph render hard --scene scene.glb --views views.json --view overview --swap visibility=fused
   shadowgraph verify hard --scene builtin:contact --backend wgpu
+  shadowgraph profile hard --backend wgpu --trace trace.json
   shadowgraph check my_graph.ron
   shadowgraph graph hard --svg > hard.svg
   shadowgraph passes visibility";
@@ -56,6 +59,8 @@ pub enum Command {
     Suggest(SuggestArgs),
     /// Make one folder of the parts of a sharded chart run
     Merge(MergeArgs),
+    /// Time each node of a graph, within whole frames and alone, with what it counted, its memory, and how far the clocks can be trusted
+    Profile(ProfileArgs),
     /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU
     Check(CheckArgs),
     /// Print a graph: its plan, or a drawing

@@ -6,6 +6,7 @@ pub mod compare;
 pub mod export;
 pub mod graph;
 pub mod passes;
+pub mod profile;
 pub mod render;
 pub mod scenes;
 pub mod suggest;

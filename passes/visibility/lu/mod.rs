@@ -45,13 +45,13 @@ pub static PASS: Pass = Pass {
         },
         Counter {
             name: "pairs",
-            doc: "(view-sample, caster) pairs that were met; counted on the CPU",
-            kind: CounterKind::Info,
+            doc: "(view-sample, caster) pairs that were met",
+            kind: CounterKind::OnCpu,
         },
         Counter {
             name: "cut_pairs",
-            doc: "pairs in which the caster may hide a part of the light; counted on the CPU",
-            kind: CounterKind::Info,
+            doc: "pairs in which the caster may hide a part of the light",
+            kind: CounterKind::OnCpu,
         },
     ],
     contract: Contract::Approximate,
