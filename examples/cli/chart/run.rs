@@ -392,7 +392,8 @@ impl Truths {
         let progress = |node: &str, done, total| how.bar.set(&format!("reference, {node}"), done, total);
         let sets = (light_samples / MOST_OF_SET) as usize;
         let outcome = converged(&Machine::new(BackendChoice::Cpu)?, &plan, &job, sets, &progress)?;
-        let answers = Answers { light_samples: light_samples as usize, ..Answers::of(&plan, &outcome, &job)? };
+        let mut answers = Answers::of(&plan, &outcome, &job)?;
+        answers.light_samples = light_samples as usize;
         self.answers.insert(light_samples, answers.clone());
         Ok(answers)
     }
