@@ -112,5 +112,6 @@ pub use names::nearest;
 pub use overrides::{Keep, Overrides};
 pub use plan::plan;
 pub use schema::VERSION;
-pub use source::{MAX_TEXT_BYTES, Source};
+pub use source::{MAX_TEXT_BYTES, Source, Span};
+pub use span::{Data, Field, Name, Number, Reader, Tree, read_ron};
 pub use write::{plan_id, resolved_text};

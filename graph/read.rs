@@ -1,9 +1,9 @@
 //! Tree to [`FileWritten`]: which fields there are and of which type. Every mistake is noted, reading goes on.
 
-use crate::names::{did_you_mean, list};
+use crate::names::list;
 use crate::schema::{AlternativeWritten, FileWritten, GuardWritten, Name, NodeWritten, Scalar, VERSION};
 use crate::source::{Findings, Span};
-use crate::span::{Data, Field, Tree};
+use crate::span::{Data, Reader, Tree};
 use shadowgraph_core::param::Value;
 use shadowgraph_core::plan::Backend;
 use shadowgraph_core::problem::{Kind, Problem};
@@ -12,8 +12,6 @@ const FILE_FIELDS: &[&str] =
     &["version", "doc", "base", "inputs", "nodes", "replace", "add", "remove", "outputs", "axes", "light_samples"];
 const NODE_FIELDS: &[&str] = &["id", "stage", "pass", "params", "on", "in", "choose", "when", "unless"];
 const ALTERNATIVE_FIELDS: &[&str] = &["when", "unless", "pass", "params"];
-/// Most nodes of one list, entries of one map: far above any use, far below what hurts.
-const MAX_ENTRIES: usize = 10_000;
 /// Most light samples that a graph may say it is made for: as many as a light can have.
 const MAX_LIGHT_SAMPLES: u32 = 4096;
 
@@ -45,38 +43,7 @@ pub(crate) fn read(tree: &Tree, findings: &mut Findings) -> Option<FileWritten> 
     Some(file)
 }
 
-struct Reader<'a> {
-    findings: &'a mut Findings,
-}
-
 impl Reader<'_> {
-    fn wrong(&mut self, value: &Tree, what: &str, expected: &str) {
-        let problem = Problem::new(Kind::BadValue, format!("`{what}` is of the wrong type"));
-        self.findings.push(value.span, problem.expected(expected).found(value.data.text()));
-    }
-
-    /// The known fields of a struct, each once; none when `tree` is no struct.
-    fn fields<'t>(&mut self, tree: &'t Tree, known: &[&str], what: &str) -> Option<Vec<&'t Field>> {
-        let Data::Struct(fields) = &tree.data else {
-            let problem = Problem::new(Kind::BadValue, format!("{what} is a struct")).expected("(name: value, ..)");
-            self.findings.push(tree.span, problem.found(tree.data.text()));
-            return None;
-        };
-        let mut kept: Vec<&Field> = Vec::new();
-        for field in fields {
-            if !known.contains(&field.name.as_str()) {
-                let problem = Problem::new(Kind::UnknownName, format!("{what} has no field `{}`", field.name));
-                self.findings.push(field.span, problem.remedy(did_you_mean(&field.name, known.iter().copied())));
-            } else if kept.iter().any(|earlier| earlier.name == field.name) {
-                let problem = Problem::new(Kind::Duplicate, format!("field `{}` is given twice", field.name));
-                self.findings.push(field.span, problem);
-            } else {
-                kept.push(field);
-            }
-        }
-        Some(kept)
-    }
-
     fn version(&mut self, value: &Tree) {
         let whole = match &value.data {
             Data::Number(number) => number.whole,
@@ -100,77 +67,6 @@ impl Reader<'_> {
             self.findings.push(value.span, problem.expected(expected).found(value.data.text()));
         }
         count
-    }
-
-    fn name(&mut self, value: &Tree, what: &str) -> Option<Name> {
-        match &value.data {
-            Data::Text(text) => Some(Name { text: text.clone(), span: value.span }),
-            _ => {
-                self.wrong(value, what, "text in quotes");
-                None
-            }
-        }
-    }
-
-    fn items<'t>(&mut self, value: &'t Tree, what: &str) -> &'t [Tree] {
-        match &value.data {
-            Data::List(items) if items.len() > MAX_ENTRIES => {
-                self.too_many(value.span, what, items.len());
-                &[]
-            }
-            Data::List(items) => items,
-            _ => {
-                self.wrong(value, what, "a list [..]");
-                &[]
-            }
-        }
-    }
-
-    fn too_many(&mut self, span: Span, what: &str, count: usize) {
-        let problem = Problem::new(Kind::BadValue, format!("`{what}` is too long"));
-        self.findings.push(span, problem.expected(format!("at most {MAX_ENTRIES} entries")).found(count.to_string()));
-    }
-
-    fn names(&mut self, value: &Tree, what: &str) -> Vec<Name> {
-        let mut names: Vec<Name> = Vec::new();
-        for item in self.items(value, what) {
-            let Some(name) = self.name(item, what) else { continue };
-            if names.iter().any(|earlier| earlier.text == name.text) {
-                let problem = Problem::new(Kind::Duplicate, format!("{:?} stands twice in `{what}`", name.text));
-                self.findings.push(name.span, problem);
-            } else {
-                names.push(name);
-            }
-        }
-        names
-    }
-
-    /// Entries of a map with names as keys, each key once. A struct is read like a map, and told.
-    fn entries<'t>(&mut self, value: &'t Tree, what: &str, key_is: &str) -> Vec<(Name, &'t Tree)> {
-        let mut entries: Vec<(Name, &Tree)> = Vec::new();
-        match &value.data {
-            Data::Map(map) if map.len() > MAX_ENTRIES => self.too_many(value.span, what, map.len()),
-            Data::Map(map) => {
-                let named = map.iter().filter_map(|(key, value)| Some((self.name(key, key_is)?, value)));
-                entries.extend(named);
-            }
-            Data::Struct(fields) => {
-                self.wrong(value, what, "a map {\"name\": value, ..}");
-                let name = |field: &Field| Name { text: field.name.clone(), span: field.span };
-                entries.extend(fields.iter().take(MAX_ENTRIES).map(|field| (name(field), &field.value)));
-            }
-            _ => self.wrong(value, what, "a map {\"name\": value, ..}"),
-        }
-        let mut seen = std::collections::HashSet::new();
-        entries.retain(|(key, _)| {
-            let is_new = seen.insert(key.text.clone());
-            if !is_new {
-                let problem = Problem::new(Kind::Duplicate, format!("{key_is} `{}` is given twice", key.text));
-                self.findings.push(key.span, problem);
-            }
-            is_new
-        });
-        entries
     }
 
     fn wires(&mut self, value: &Tree, what: &str, key_is: &str) -> Vec<(Name, Name)> {

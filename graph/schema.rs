@@ -1,18 +1,12 @@
 //! A graph file as written: every word with its place. Nothing here knows which stages and passes exist.
 
 use crate::source::Span;
+pub(crate) use crate::span::Name;
 use shadowgraph_core::param::Value;
 use shadowgraph_core::plan::Backend;
 
 /// The version of the format that this crate reads.
 pub const VERSION: u32 = 1;
-
-/// A word of the file.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Name {
-    pub text: String,
-    pub span: Span,
-}
 
 /// A parameter value of the file.
 #[derive(Clone, Debug, PartialEq)]

@@ -20,26 +20,26 @@ pub struct Source {
 
 /// Bytes `start..end` of text `file`. Ordered as a reader meets them: the file itself, its base, the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Span {
-    pub file: u32,
-    pub start: u32,
-    pub end: u32,
+pub struct Span {
+    pub(crate) file: u32,
+    pub(crate) start: u32,
+    pub(crate) end: u32,
 }
 
 impl Span {
-    pub fn new(file: u32, start: usize, end: usize) -> Self {
+    pub(crate) fn new(file: u32, start: usize, end: usize) -> Self {
         Self { file, start: start as u32, end: end as u32 }
     }
     /// The place of flag `index`.
-    pub fn flag(index: usize) -> Self {
+    pub(crate) fn flag(index: usize) -> Self {
         Self { file: FLAG, start: index as u32, end: index as u32 }
     }
     /// From here to the end of `last`.
-    pub fn to(self, last: Span) -> Self {
+    pub(crate) fn to(self, last: Span) -> Self {
         Self { end: last.end, ..self }
     }
     /// Whether this was said before `other`: a base is older than the file that builds on it, flags are the youngest.
-    pub fn is_older_than(self, other: Span) -> bool {
+    pub(crate) fn is_older_than(self, other: Span) -> bool {
         let age = |span: Span| if span.file == FLAG { 0 } else { u64::from(span.file) + 1 };
         age(self) > age(other)
     }

@@ -6,10 +6,11 @@ use crate::outcome::Outcome;
 use shadowgraph_charts::model::Errors;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::metric::{Leaks, Penumbra, grey_errors, mask_difference, penumbra_widths};
-use shadowgraph_core::plan::{Plan, Producer};
+use shadowgraph_core::plan::{Plan, Producer, Slot};
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::shared::{FACING_AWAY, KEPT, NO_TRIANGLE};
 use shadowgraph_cpu::Progress;
+use shadowgraph_measure::flip;
 
 /// Values of a finished run, by what they are.
 #[derive(Clone, Debug)]
@@ -44,10 +45,17 @@ impl Answers {
     /// # Errors
     /// The graph keeps no view-samples, or neither masks nor visible fractions.
     pub fn of(plan: &Plan, outcome: &Outcome, job: &Job) -> Result<Self, Problem> {
+        Self::of_values(plan, |name| plan.slot(name).and_then(|id| outcome.values.try_get(id)).cloned(), job)
+    }
+
+    /// Finds them among values by slot name.
+    ///
+    /// # Errors
+    /// As [`Answers::of`].
+    pub fn of_values(plan: &Plan, value: impl Fn(&str) -> Option<Array>, job: &Job) -> Result<Self, Problem> {
         let find = |quantity: &str| {
-            let slots = plan.slots.iter().enumerate();
-            let mut made = slots.filter(|(_, slot)| slot.port.quantity == quantity && slot.name.contains('.'));
-            made.find_map(|(id, _)| outcome.values.try_get(id)).cloned()
+            let made = |slot: &&Slot| slot.port.quantity == quantity && slot.name.contains('.');
+            plan.slots.iter().filter(made).find_map(|slot| value(&slot.name))
         };
         let need = |quantity: &str| {
             find(quantity).ok_or_else(|| {
@@ -125,7 +133,7 @@ impl Answers {
 
 /// Whether the mask has a bit of its own for each light sample: filtered shadow maps fill theirs with what a majority says.
 fn has_bits(plan: &Plan) -> bool {
-    let made_by = |slot: &shadowgraph_core::plan::Slot| match slot.producer {
+    let made_by = |slot: &Slot| match slot.producer {
         Producer::Node(node) => Some(&plan.nodes[node]),
         Producer::Input => None,
     };
@@ -193,6 +201,13 @@ pub fn errors(test: &Answers, truth: &Truth) -> Result<Errors, Problem> {
         };
         let widths = penumbra_widths(&test.picture(&seen), &grey.picture(&right), test.size, joined)?;
         errors.penumbra_width_ratio = widths.median_ratio;
+    }
+    if let (Some(image), Some(right)) = (&test.image, &grey.image) {
+        errors.flip_tonemapped = Some(flip::tone_mapped(image, right, flip::DEFAULT_PPD)?.flip.mean);
+        // Without light there is no range of exposures to look through.
+        if right.as_f32().chunks_exact(4).any(|texel| texel[..3].iter().any(|value| *value > 0.0)) {
+            errors.flip_linear = Some(flip::high_range(image, right, flip::DEFAULT_PPD)?.flip.mean);
+        }
     }
     Ok(errors)
 }

@@ -3,7 +3,9 @@
 
 pub mod answers;
 pub mod args;
+pub mod chart;
 pub mod commands;
+pub mod compare;
 pub mod converged;
 pub mod dump;
 pub mod engine;
@@ -22,6 +24,7 @@ pub mod ranges;
 pub mod record;
 pub mod report;
 pub mod stretch;
+pub mod suggest;
 pub mod texture;
 pub mod trial;
 pub mod verify;

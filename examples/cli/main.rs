@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use shadowgraph::args::{Cli, Command};
-use shadowgraph::commands::{check, export, graph, passes, profile, render, scenes, verify};
+use shadowgraph::commands::{chart, check, compare, export, graph, passes, profile, render, scenes, suggest, verify};
 use shadowgraph_core::problem::Problems;
 use std::io::Write;
 use std::process::ExitCode;
@@ -34,6 +34,9 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
     let threads = match command {
         Command::Render(args) => args.run.threads,
         Command::Verify(args) => args.run.threads,
+        Command::Compare(args) => args.threads,
+        Command::Chart(args) => args.threads,
+        Command::Suggest(args) => args.threads,
         Command::Profile(args) => args.machine.threads,
         _ => 0,
     };
@@ -42,6 +45,10 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
     Ok(match command {
         Command::Render(args) => (render::text(&catalogue, args)?, true),
         Command::Verify(args) => verify::text(&catalogue, args)?,
+        Command::Compare(args) => compare::text(&catalogue, args)?,
+        Command::Chart(args) => (chart::text(&catalogue, args)?, true),
+        Command::Suggest(args) => suggest::text(&catalogue, args)?,
+        Command::Merge(args) => (chart::merge_text(args)?, true),
         Command::Profile(args) => (profile::text(&catalogue, args)?, true),
         Command::Check(args) => check::text(&catalogue, args),
         Command::Graph(args) => (graph::text(&catalogue, args)?, true),

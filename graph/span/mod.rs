@@ -6,10 +6,12 @@
 
 mod lex;
 mod parse;
+mod reader;
 mod value;
 
 #[cfg(test)]
 mod tests;
 
 pub(crate) use parse::{parse, parse_fragment};
-pub(crate) use value::{Data, Field, Tree};
+pub use reader::{Reader, read_ron};
+pub use value::{Data, Field, Name, Number, Tree};

@@ -4,20 +4,27 @@ use crate::source::Span;
 
 /// A value and where it stands.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Tree {
+pub struct Tree {
+    /// Where it stands.
     pub span: Span,
+    /// What it is.
     pub data: Data,
 }
 
 /// A value. Maps and structs keep every entry, equal keys too.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Data {
+pub enum Data {
+    /// `256`, `1e-3`.
     Number(Number),
+    /// `true` or `false`.
     Bool(bool),
+    /// Text in quotes.
     Text(String),
     /// A bare word, such as `Cpu`.
     Word(String),
+    /// `[value, ..]`.
     List(Vec<Tree>),
+    /// `{key: value, ..}`.
     Map(Vec<(Tree, Tree)>),
     /// `(name: value, ..)`.
     Struct(Vec<Field>),
@@ -27,19 +34,33 @@ pub(crate) enum Data {
 
 /// One named value of a struct.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Field {
+pub struct Field {
+    /// Its name.
     pub name: String,
+    /// Where the name stands.
     pub span: Span,
+    /// Its value.
     pub value: Tree,
 }
 
 /// A number as written and as understood.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Number {
+pub struct Number {
+    /// As written.
     pub text: String,
     /// Its value if it is whole and written without point or exponent.
     pub whole: Option<i128>,
+    /// Its value.
     pub real: f64,
+}
+
+/// A word of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// The word.
+    pub text: String,
+    /// Where it stands.
+    pub span: Span,
 }
 
 impl Data {

@@ -1,21 +1,27 @@
 //! The command line, as clap sees it: one file a command, and one for what several take.
 
+mod chart;
 mod check;
+mod compare;
 mod graph;
 mod listings;
 mod profile;
 mod render;
 mod run;
 mod scene;
+mod suggest;
 mod verify;
 
+pub use chart::{ChartArgs, MergeArgs};
 pub use check::CheckArgs;
+pub use compare::CompareArgs;
 pub use graph::{GraphArgs, GraphChoice};
 pub use listings::{ExportArgs, PassesArgs, ScenesArgs};
 pub use profile::ProfileArgs;
 pub use render::RenderArgs;
 pub use run::{BackendChoice, MachineChoice, RunChoice};
 pub use scene::{GeneratorChoice, LightChoice, SceneChoice, ShapeChoice};
+pub use suggest::SuggestArgs;
 pub use verify::VerifyArgs;
 
 use clap::{Parser, Subcommand};
@@ -45,6 +51,14 @@ pub enum Command {
     Render(RenderArgs),
     /// Run a graph and the exact truth on the same view-samples, and report wrong bits
     Verify(VerifyArgs),
+    /// Compare two graphs, or two variants of one: what differs, which is faster and how certain that is, which is wrong and where
+    Compare(CompareArgs),
+    /// Run a suite of scenes and variants: milliseconds against error, as one page, charts and tables
+    Chart(ChartArgs),
+    /// Find the cheapest variant that is right enough on a scene, or the most right one that is fast enough, as a graph file
+    Suggest(SuggestArgs),
+    /// Make one folder of the parts of a sharded chart run
+    Merge(MergeArgs),
     /// Time each node of a graph, within whole frames and alone, with what it counted, its memory, and how far the clocks can be trusted
     Profile(ProfileArgs),
     /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU
