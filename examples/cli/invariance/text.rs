@@ -26,10 +26,15 @@ pub fn text(report: &Report) -> String {
     }
     align_right(&mut table, &[3, 4]);
     text.push_str(&format!("{table}\n"));
+    let mut said = Vec::new();
     for Check { check, what, verdict } in &report.checks {
         match verdict {
+            Verdict::NotApplicable { .. } if said.contains(check) => {}
             Verdict::Same { .. } => {}
-            Verdict::NotApplicable { why } => text.push_str(&format!("{check}: not applicable: {why}\n")),
+            Verdict::NotApplicable { why } => {
+                text.push_str(&format!("{check}: not applicable: {why}\n"));
+                said.push(check);
+            }
             Verdict::Differs { ports } => {
                 let here: Vec<&Difference> = ports.iter().filter(|port| port.begins_here).collect();
                 for Difference { node, pass, port, comparison, .. } in &here {
