@@ -18,8 +18,29 @@ pub fn trials() -> Vec<Trial> {
         Trial::test("program/the_light_is_what_its_flags_say_in_record_and_dump", light),
         Trial::test("program/light_flags_that_do_not_fit_are_problems", wrong_light),
         Trial::test("program/profiles_are_tables_json_and_traces", profiles),
+        Trial::test("program/invariance_needs_a_run_and_says_what_it_compared", invariance),
         Trial::test("program/sets_of_light_samples_are_averaged", light_sets),
     ]
+}
+
+/// Checks that run a graph: all the same, in words and as JSON; flags of a run are refused where nothing runs.
+fn invariance() -> Result<(), Failed> {
+    let words = ["check", "--invariance", "hard", "--backend", "cpu", "--size", "24x20", "--frames", "3", "-q"];
+    let output = program(&words)?;
+    succeeded(&output)?;
+    let text = stdout(&output);
+    for word in ["order", "frame 3 against the first", "poison: not applicable", "same"] {
+        assert!(text.contains(word), "no {word} in\n{text}");
+    }
+    let output = program(&[&words[..], &["--json"]].concat())?;
+    succeeded(&output)?;
+    let reports: serde_json::Value = serde_json::from_str(&stdout(&output)).map_err(|error| error.to_string())?;
+    let verdicts = reports[0]["checks"].as_array().ok_or("no checks")?;
+    assert!(verdicts.iter().any(|check| check["verdict"]["is"] == "same"), "{reports}");
+    let output = program(&["check", "hard", "--size", "24x20"])?;
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("--invariance"), "{}", stderr(&output));
+    Ok(())
 }
 
 /// Times of each node, with the files that were asked for; without timers whole frames alone.

@@ -18,6 +18,7 @@ use std::ops::Range;
 pub type Given = [(String, Array)];
 
 /// What nodes can run on.
+#[derive(Clone)]
 pub struct Machine {
     session: Option<&'static Session>,
     /// Where nodes run that are not pinned.

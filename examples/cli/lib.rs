@@ -11,6 +11,7 @@ pub mod dump;
 pub mod engine;
 pub mod frames;
 pub mod graph_choice;
+pub mod invariance;
 pub mod jitter;
 pub mod job;
 mod kept;

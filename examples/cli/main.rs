@@ -50,7 +50,7 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
         Command::Suggest(args) => suggest::text(&catalogue, args)?,
         Command::Merge(args) => (chart::merge_text(args)?, true),
         Command::Profile(args) => (profile::text(&catalogue, args)?, true),
-        Command::Check(args) => check::text(&catalogue, args),
+        Command::Check(args) => check::text(&catalogue, args)?,
         Command::Graph(args) => (graph::text(&catalogue, args)?, true),
         Command::Passes(args) => (passes::text(&catalogue, args)?, true),
         Command::Scenes(args) => (scenes::text(args)?, true),

@@ -181,6 +181,7 @@ impl<'a> Receivers<'a> {
         }
         let (first, last) = (from / LANES, (to - 1) / LANES);
         let mut lanes = u16::MAX << (from % LANES);
+        let mut pairs = 0;
         for index in first..=last {
             if index == last {
                 lanes &= u16::MAX >> (LANES - 1 - (to - 1) % LANES);
@@ -191,7 +192,7 @@ impl<'a> Receivers<'a> {
                 continue;
             }
             tested.open = true;
-            settle.counts.tested += u64::from(open.count_ones());
+            pairs += open.count_ones();
             let mut left = candidates(simd, planes, &self.chunks[index]) & open;
             if left != 0 {
                 left &= !lying_on(simd, settle.caster, &self.own[index]);
@@ -200,6 +201,7 @@ impl<'a> Receivers<'a> {
                 tested.hits += settle.chunk(self, index, left);
             }
         }
+        settle.counts.tested += u64::from(pairs);
         tested
     }
 }

@@ -41,6 +41,7 @@ const EXAMPLES: &str = "Examples:
   shadowgraph verify hard --scene builtin:contact --backend wgpu
   shadowgraph profile hard --backend wgpu --trace trace.json
   shadowgraph check my_graph.ron
+  shadowgraph check --invariance hard --scene builtin:columns
   shadowgraph graph hard --svg > hard.svg
   shadowgraph passes visibility";
 
@@ -61,7 +62,7 @@ pub enum Command {
     Merge(MergeArgs),
     /// Time each node of a graph, within whole frames and alone, with what it counted, its memory, and how far the clocks can be trusted
     Profile(ProfileArgs),
-    /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU
+    /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU. With --invariance: run them, and require the same values whatever must not matter
     Check(CheckArgs),
     /// Print a graph: its plan, or a drawing
     Graph(GraphArgs),
