@@ -19,17 +19,17 @@ pub struct SuggestArgs {
     #[allow(missing_docs)]
     pub scene: SceneChoice,
     /// Largest error: of what meets it, the cheapest is suggested
-    #[arg(long, value_name = "ERROR", conflicts_with = "ms", required_unless_present = "ms")]
+    #[arg(long, value_name = "ERROR", value_parser = bound, conflicts_with = "ms", required_unless_present = "ms")]
     pub error: Option<f64>,
     /// Most milliseconds a frame: of what meets it, the most right is suggested
-    #[arg(long, value_name = "MILLIS")]
+    #[arg(long, value_name = "MILLIS", value_parser = bound)]
     pub ms: Option<f64>,
     /// Which error; without it rmse_penumbra for a light with extent, else wrong_bit_share
     #[arg(long, value_name = "NAME")]
     pub metric: Option<String>,
-    /// Suite whose methods are tried: a file or a built-in name; its scenes do not count
-    #[arg(long, default_value = "suggest", value_name = "SUITE")]
-    pub suite: String,
+    /// Suite whose methods are tried: a file or a built-in name; its scenes do not count. Without it the chart's, or `suggest`
+    #[arg(long, value_name = "SUITE")]
+    pub suite: Option<String>,
     /// Take the figures from the folder of a chart run instead of measuring
     #[arg(long, value_name = "DIR")]
     pub chart: Option<PathBuf>,
@@ -51,4 +51,10 @@ pub struct SuggestArgs {
     /// No progress bars
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// A number that can be met.
+fn bound(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
+    number.ok_or_else(|| "expected a number, 0 or more".into())
 }

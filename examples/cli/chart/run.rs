@@ -16,6 +16,7 @@ use crate::stretch::Frame;
 use crate::trial::Trial;
 use shadowgraph_charts::model::{NodeCost, Point, Provenance};
 use shadowgraph_core::array::Array;
+use shadowgraph_core::facts::Facts;
 use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::plan::{Backend, Plan};
 use shadowgraph_core::problem::{Kind, Problem, Problems};
@@ -75,11 +76,11 @@ struct Case<'a> {
     plan: Option<Plan>,
 }
 
-/// Runs what the store does not have yet.
+/// Runs what the store does not have yet, and returns the ids of all that this run is about.
 ///
 /// # Errors
 /// The store cannot be written. What a variant, a scene or a device reports becomes the failure of its points.
-pub fn run(suite: &Suite, store: &mut Store, how: &How) -> Result<(), Problems> {
+pub fn run(suite: &Suite, store: &mut Store, how: &How) -> Result<Vec<String>, Problems> {
     let machines = Machines {
         asked: Machine::new(how.backend),
         cpu: Machine::new(BackendChoice::Cpu),
@@ -87,11 +88,12 @@ pub fn run(suite: &Suite, store: &mut Store, how: &How) -> Result<(), Problems> 
     };
     let scenes = suite.scenes.iter().filter(|scene| how.scenes.is_empty() || how.scenes.contains(&scene.name));
     let scenes: Vec<&SceneEntry> = scenes.collect();
+    let mut ids = Vec::new();
     for (index, scene) in scenes.iter().enumerate() {
         let about = format!("scene {} of {}, {}", index + 1, scenes.len(), scene.name);
-        run_scene(suite, scene, &machines, store, how, &about)?;
+        ids.extend(run_scene(suite, scene, &machines, store, how, &about)?);
     }
-    Ok(())
+    Ok(ids)
 }
 
 fn run_scene(
@@ -101,7 +103,7 @@ fn run_scene(
     store: &mut Store,
     how: &How,
     about: &str,
-) -> Result<(), Problems> {
+) -> Result<Vec<String>, Problems> {
     let variants =
         suite.variants.iter().filter(|variant| variant.only.is_empty() || variant.only.contains(&scene.name));
     let [part, parts] = how.shard;
@@ -111,6 +113,12 @@ fn run_scene(
         variants.flat_map(|variant| machines.of(suite, variant).into_iter().map(move |machine| (variant, machine)));
     for (_, (variant, machine)) in all.enumerate().filter(|(index, _)| index % parts == part) {
         cases.push(case(suite, scene, variant, machine, &mut jobs, how));
+    }
+    let forgotten = store.forget_earlier(&cases.iter().map(|case| &case.point).collect::<Vec<_>>())?;
+    if forgotten > 0 {
+        let scene = &scene.name;
+        let remark = format!("{forgotten} variants on {scene} are not what they were in an earlier run: measured anew");
+        store.remarks.push(Problem::new(Kind::BadValue, remark));
     }
     let unanswered: Vec<usize> =
         (0..cases.len()).filter(|index| store.answers.iter().all(|known| known.id != cases[*index].point.id)).collect();
@@ -131,7 +139,8 @@ fn run_scene(
         }
         store.add_answer(point)?;
     }
-    time(suite, &cases, &mut jobs, store, how, about)
+    time(suite, &cases, &mut jobs, store, how, about)?;
+    Ok(cases.into_iter().map(|case| case.point.id).collect())
 }
 
 /// Times what has an answer, round after round.
@@ -264,15 +273,19 @@ fn case<'a>(
         view: scene.choice.view.clone().unwrap_or_default(),
         graph: variant.graph_name(),
         choices: variant.choices.clone(),
-        quality_axis: variant.quality.clone(),
+        // One point is no curve.
+        quality_axis: variant.quality.clone().filter(|axis| variant.choices.iter().any(|(known, _)| known == axis)),
         label: variant.label(),
         backend: if backend == Backend::Cpu { "cpu".into() } else { "wgpu".into() },
         light_samples: variant.light_samples as usize,
         ..Point::default()
     };
     let planned = jobs.get(variant.light_samples).and_then(|job| {
-        // What a light is shows only when it has more than one sample.
-        if let Some(why) = variant.ruled_out(&jobs.get(suite.reference.min(MOST_OF_SET))?.facts) {
+        // What a light is shows only when it has more than one sample; without extent, they all are one.
+        let light = jobs.get(suite.reference.min(MOST_OF_SET))?;
+        let is_point = light.facts.light_is_point || !shadowgraph_scenes::lights::has_extent(&light.light);
+        let facts = Facts { light_is_point: is_point, ..light.facts };
+        if let Some(why) = variant.ruled_out(&facts) {
             return Err(Problem::new(Kind::Unsupported, format!("not tried: {why}")).into());
         }
         let keep = Keep::OutputsOnly;

@@ -7,7 +7,8 @@ use shadowgraph_charts::check::Record;
 use shadowgraph_charts::lines;
 use shadowgraph_charts::model::{Interval, NodeCost, Point};
 use shadowgraph_core::problem::{Kind, Problem, Problems};
-use std::fs::{File, OpenOptions};
+use std::collections::HashSet;
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -90,9 +91,27 @@ impl Store {
     pub fn open(folder: &Path) -> Result<Self, Problems> {
         let pictures = folder.join(PICTURES);
         std::fs::create_dir_all(&pictures).map_err(|error| file_problem(&pictures, &error))?;
+        Self::load(folder, true)
+    }
+
+    /// Reads a folder that another run may be writing into, and changes nothing in it.
+    ///
+    /// # Errors
+    /// No records are there; as [`Store::open`].
+    pub fn look(folder: &Path) -> Result<Self, Problems> {
+        if !folder.join(ANSWERS).exists() {
+            return Err(Problem::new(Kind::File, "this folder holds no records of a chart run")
+                .expected(format!("{ANSWERS} in it"))
+                .found(folder.display().to_string())
+                .into());
+        }
+        Self::load(folder, false)
+    }
+
+    fn load(folder: &Path, mends: bool) -> Result<Self, Problems> {
         let mut store = Self { folder: folder.into(), answers: Vec::new(), rounds: Vec::new(), remarks: Vec::new() };
-        store.answers = store.read::<Answer>(ANSWERS)?.into_iter().map(|answer| answer.0).collect();
-        store.rounds = store.read(ROUNDS)?;
+        store.answers = store.read::<Answer>(ANSWERS, mends)?.into_iter().map(|answer| answer.0).collect();
+        store.rounds = store.read(ROUNDS, mends)?;
         Ok(store)
     }
 
@@ -101,11 +120,13 @@ impl Store {
         &self.folder
     }
 
-    fn read<T: Record>(&mut self, name: &str) -> Result<Vec<T>, Problems> {
+    fn read<T: Record>(&mut self, name: &str, mends: bool) -> Result<Vec<T>, Problems> {
         let path = self.folder.join(name);
         let Some(bytes) = bytes_of(&path)? else { return Ok(Vec::new()) };
         let lines = lines::read::<T>(&bytes, &path.display().to_string())?;
-        mend(&path, lines.whole_bytes, lines.lead)?;
+        if mends && (lines.whole_bytes < bytes.len() || !lines.lead.is_empty()) {
+            mend(&path, lines.whole_bytes, lines.lead)?;
+        }
         self.remarks.extend(lines.remarks);
         Ok(lines.records)
     }
@@ -120,6 +141,32 @@ impl Store {
         self.answers.retain(|known| known.id != answer.0.id);
         self.answers.push(answer.0);
         Ok(())
+    }
+
+    /// Forgets what variants answered before they or their scene were changed: points that are one of `now` by name and have
+    /// another id. Their timed rounds stay on disk, where they count again if the change is undone. Returns how many there were.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn forget_earlier(&mut self, now: &[&Point]) -> Result<usize, Problem> {
+        let name = |point: &Point| {
+            [&point.suite, &point.scene, &point.graph, &point.label, &point.backend].map(String::clone)
+        };
+        let ids: HashSet<&str> = now.iter().map(|point| point.id.as_str()).collect();
+        let names: HashSet<_> = now.iter().map(|point| name(point)).collect();
+        let is_earlier = |point: &Point| names.contains(&name(point)) && !ids.contains(point.id.as_str());
+        let count = self.answers.iter().filter(|point| is_earlier(point)).count();
+        if count == 0 {
+            return Ok(0);
+        }
+        self.answers.retain(|point| !is_earlier(point));
+        let lines = self.answers.iter().map(|point| lines::to_line(&Answer(point.clone())));
+        let text = lines.collect::<Result<String, Problem>>()?;
+        // Written whole beside the old file first: a kill leaves one or the other.
+        let fresh = self.write(&format!("{ANSWERS}.new"), text.as_bytes())?;
+        let path = self.folder.join(ANSWERS);
+        std::fs::rename(&fresh, &path).map_err(|error| file_problem(&path, &error))?;
+        Ok(count)
     }
 
     /// Appends a timed round.
@@ -177,13 +224,8 @@ fn mend(path: &Path, whole_bytes: usize, lead: &str) -> Result<(), Problem> {
 /// # Errors
 /// A file cannot be read or written; a line that is no record.
 pub fn merge(into: &mut Store, from: &Path) -> Result<[usize; 2], Problems> {
-    if !from.join(ANSWERS).exists() {
-        return Err(Problem::new(Kind::File, "this folder holds no records of a chart run")
-            .expected(format!("{ANSWERS} in it"))
-            .found(from.display().to_string())
-            .into());
-    }
-    let part = Store::open(from)?;
+    let part = Store::look(from)?;
+    into.remarks.extend(part.remarks);
     let (mut answers, mut rounds) = (0, 0);
     for point in part.answers {
         if !into.answers.iter().any(|known| known.id == point.id) {
@@ -207,8 +249,10 @@ pub fn merge(into: &mut Store, from: &Path) -> Result<[usize; 2], Problems> {
     Ok([answers, rounds])
 }
 
-/// Holds a folder for one run at a time: two would write into each other's lines.
-pub struct Lock(PathBuf);
+/// Holds a folder for one run at a time: two would write into each other's lines. The system lets go of it when a run is killed.
+pub struct Lock {
+    _file: File,
+}
 
 impl Lock {
     /// Takes the folder.
@@ -217,25 +261,25 @@ impl Lock {
     /// Another run has it, or it cannot be written.
     pub fn take(folder: &Path) -> Result<Self, Problem> {
         std::fs::create_dir_all(folder).map_err(|error| file_problem(folder, &error))?;
-        let path = folder.join("running");
-        if let Ok(text) = std::fs::read_to_string(&path)
-            && Path::new("/proc").join(text.trim()).exists()
-        {
-            return Err(Problem::new(Kind::File, "another run writes into this folder")
-                .found(format!("process {}", text.trim()))
-                .remedy("wait for it, or give this one another --out"));
+        let path = folder.join("lock");
+        let problem = |error: std::io::Error| file_problem(&path, &error);
+        let mut file =
+            OpenOptions::new().create(true).truncate(false).read(true).write(true).open(&path).map_err(problem)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let holder = std::fs::read_to_string(&path).unwrap_or_default();
+                return Err(Problem::new(Kind::File, "another run writes into this folder")
+                    .found(format!("process {}", holder.trim()))
+                    .remedy("wait for it, or give this one another --out"));
+            }
+            Err(TryLockError::Error(error)) => return Err(problem(error)),
         }
-        let write = || -> std::io::Result<()> {
-            let mut file = File::create(&path)?;
+        let mut write = || {
+            file.set_len(0)?;
             write!(file, "{}", std::process::id())
         };
-        write().map_err(|error| file_problem(&path, &error))?;
-        Ok(Self(path))
-    }
-}
-
-impl Drop for Lock {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_file(&self.0);
+        write().map_err(problem)?;
+        Ok(Self { _file: file })
     }
 }

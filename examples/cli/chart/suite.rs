@@ -22,7 +22,7 @@
 //! ```
 
 use crate::args::{GraphChoice, SceneChoice};
-use crate::{file_problem, usage_problem};
+use crate::{file_problem, job, usage_problem};
 use clap::Parser;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::problem::{Kind, Problem, Problems};
@@ -89,17 +89,22 @@ pub struct Variant {
     pub when: Option<String>,
     /// A fact that must not hold.
     pub unless: Option<String>,
+    /// Whether its label names nodes and folders in full, as another variant's would be the same without.
+    pub is_long: bool,
 }
 
 impl Variant {
     /// Unlike that of any other variant: the graph's name and values of the axes.
     pub fn label(&self) -> String {
-        let short = |place: &str| place.rsplit('.').next().unwrap_or(place).to_string();
+        let short = |place: &str| match place.rsplit_once('.') {
+            Some((_, param)) if !self.is_long => param.to_string(),
+            _ => place.to_string(),
+        };
         let of_axis = |(axis, value): &(String, String)| match axis.as_str() {
             "light_samples" => format!("{value} samples"),
             _ => format!("{}={value}", short(axis)),
         };
-        let mut parts = vec![self.graph_name()];
+        let mut parts = vec![if self.is_long { self.choice.graph.clone() } else { self.graph_name() }];
         parts.extend(self.fixed.iter().map(|text| match text.split_once('=') {
             Some((place, value)) => format!("{}={value}", short(place)),
             None => text.clone(),
@@ -150,6 +155,11 @@ impl Suite {
         Self::read(source, scenes)
     }
 
+    /// Whether a suite of that name comes with the program.
+    pub fn is_builtin(name: &str) -> bool {
+        BUILTIN.iter().any(|(builtin, _)| *builtin == name)
+    }
+
     /// Reads the text of a suite.
     ///
     /// # Errors
@@ -172,6 +182,10 @@ fn suite(tree: &Tree, reader: &mut Reader, scenes_folder: Option<&Path>) -> Opti
         None => default.into(),
     };
     let (doc, size) = (text(reader, "doc", ""), text(reader, "size", "256x256"));
+    if let (Err(problem), Some(value)) = (job::size(&size), value(&fields, "size")) {
+        let problem = Problem { place: None, ..problem };
+        reader.problem(value.span, Problem { message: "`size` is not a picture size".into(), ..problem });
+    }
     let whole = |reader: &mut Reader, field: &str, range, default| match value(&fields, field) {
         Some(value) => reader.whole(value, field, range).unwrap_or(default),
         None => default,
@@ -199,8 +213,28 @@ fn suite(tree: &Tree, reader: &mut Reader, scenes_folder: Option<&Path>) -> Opti
         for item in reader.items(list, "methods") {
             variants.extend(method(item, reader, &scenes).unwrap_or_default());
         }
+        if matches!(&list.data, Data::List(items) if items.is_empty()) {
+            reader.problem(list.span, Problem::new(Kind::Missing, "a suite needs methods").expected("(graph: ..)"));
+        }
     }
+    tell_apart(&mut variants);
     Some(Suite { name: name?.text, doc, size, backends, reference, rounds, scenes, variants })
+}
+
+/// Lengthens the labels of variants that differ and would be called the same.
+fn tell_apart(variants: &mut [Variant]) {
+    let is_other = |a: &Variant, b: &Variant| {
+        let of = |variant: &Variant| {
+            let GraphChoice { graph, swap, set, .. } = variant.choice.clone();
+            (graph, swap, set, variant.light_samples)
+        };
+        a.label() == b.label() && of(a) != of(b)
+    };
+    let is_long: Vec<bool> =
+        variants.iter().map(|variant| variants.iter().any(|other| is_other(variant, other))).collect();
+    for (variant, is_long) in variants.iter_mut().zip(is_long) {
+        variant.is_long = is_long;
+    }
 }
 
 fn backends_of(fields: &[&Field], reader: &mut Reader) -> Vec<&'static str> {
@@ -250,7 +284,15 @@ fn scene(tree: &Tree, reader: &mut Reader, size: &str, folder: Option<&Path>) ->
     words.extend(views.iter().flat_map(|views| ["--views".to_string(), in_folder(&views.text)]));
     words.extend(view.iter().flat_map(|view| ["--view".to_string(), view.text.clone()]));
     match Options::try_parse_from(words) {
-        Ok(options) => Some(SceneEntry { name: name.text, choice: options.scene }),
+        Ok(options) => {
+            if let Some(count) = options.scene.light.light_samples {
+                let problem = Problem::new(Kind::BadValue, "light samples are a method's, not a scene's")
+                    .found(format!("--light-samples {count}"))
+                    .remedy("give them as light_samples of methods");
+                reader.problem(tree.span, problem);
+            }
+            Some(SceneEntry { name: name.text, choice: options.scene })
+        }
         Err(error) => {
             let text = error.to_string();
             let first = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string();
@@ -273,6 +315,10 @@ fn method(tree: &Tree, reader: &mut Reader, scenes: &[SceneEntry]) -> Option<Vec
     let graph = graph.and_then(|value| reader.name(value, "graph"))?;
     let mut axes: Vec<(String, Vec<String>)> = Vec::new();
     let samples = match value(&fields, "light_samples") {
+        Some(Tree { data: Data::List(items), span }) if items.is_empty() => {
+            reader.problem(*span, no_values("light_samples"));
+            Vec::new()
+        }
         Some(Tree { data: Data::List(items), .. }) => {
             items.iter().filter_map(|item| reader.whole(item, "light_samples", 1..=4096)).collect()
         }
@@ -288,13 +334,23 @@ fn method(tree: &Tree, reader: &mut Reader, scenes: &[SceneEntry]) -> Option<Vec
     }
     if let Some(value) = value(&fields, "axes") {
         for (axis, values) in reader.entries(value, "axes", "axis") {
-            let items = reader.items(values, &axis.text).iter();
-            let texts = items.map(|item| match &item.data {
-                Data::Text(text) | Data::Word(text) => text.clone(),
-                Data::Number(number) => number.text.clone(),
-                other => other.text(),
-            });
-            axes.push((axis.text, texts.collect()));
+            if axis.text == "light_samples" {
+                let problem = Problem::new(Kind::BadValue, "light samples are an axis of their own");
+                reader.problem(axis.span, problem.remedy("give them as light_samples: [..] of the method"));
+                continue;
+            }
+            let mut texts = Vec::new();
+            for item in reader.items(values, &axis.text) {
+                match &item.data {
+                    Data::Text(text) | Data::Word(text) => texts.push(text.clone()),
+                    Data::Number(number) => texts.push(number.text.clone()),
+                    _ => reader.wrong(item, &axis.text, "a number, a word, or text in quotes"),
+                }
+            }
+            if matches!(&values.data, Data::List(items) if items.is_empty()) {
+                reader.problem(values.span, no_values(&axis.text));
+            }
+            axes.push((axis.text, texts));
         }
     }
     let quality = value(&fields, "quality").and_then(|value| reader.name(value, "quality"));
@@ -329,8 +385,13 @@ fn method(tree: &Tree, reader: &mut Reader, scenes: &[SceneEntry]) -> Option<Vec
         backends: backends_of(&fields, reader),
         when: fact(&fields, "when", reader),
         unless: fact(&fields, "unless", reader),
+        is_long: false,
     };
     Some(combinations(first, &axes))
+}
+
+fn no_values(axis: &str) -> Problem {
+    Problem::new(Kind::Missing, format!("axis `{axis}` has no values")).expected("one or more")
 }
 
 /// The name of a fact, as graph files have them.

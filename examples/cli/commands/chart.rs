@@ -18,6 +18,10 @@ use shadowgraph_core::problem::Problems;
 /// What is wrong with the suite; a file cannot be written.
 pub fn text(catalogue: &Catalogue, args: &ChartArgs) -> Result<String, Problems> {
     let suite = Suite::load(&args.suite, args.scenes.as_deref())?;
+    if suite.scenes.is_empty() {
+        let problem = usage_problem("the suite has no scenes").found(&args.suite);
+        return Err(problem.remedy("suggest runs it on a scene of your own").into());
+    }
     let known: Vec<&str> = suite.scenes.iter().map(|scene| scene.name.as_str()).collect();
     if let Some(name) = args.scene.iter().find(|name| !known.contains(&name.as_str())) {
         let problem = usage_problem("--scene names no scene of the suite").expected(known.join(", ")).found(name);
@@ -26,15 +30,22 @@ pub fn text(catalogue: &Catalogue, args: &ChartArgs) -> Result<String, Problems>
     let shard = shard(&args.shard)?;
     let _lock = Lock::take(&args.out)?;
     let mut store = Store::open(&args.out)?;
-    for remark in &store.remarks {
-        eprintln!("{remark}");
-    }
+    tell(&mut store);
     if !args.page_only {
         let bar = Bar::new(args.quiet);
         let how = How { catalogue, backend: args.backend, shard, scenes: &args.scene, bar: &bar };
         run(&suite, &mut store, &how)?;
+        drop(bar);
+        tell(&mut store);
     }
     finish(&store, &format!("Shadowgraph: {}", suite.name), &suite.doc, args.json)
+}
+
+/// Prints what is worth telling and stops nothing.
+fn tell(store: &mut Store) {
+    for remark in store.remarks.drain(..) {
+        eprintln!("{remark}");
+    }
 }
 
 /// Makes one folder of several, and what to print.
@@ -49,6 +60,7 @@ pub fn merge_text(args: &MergeArgs) -> Result<String, Problems> {
         let [answers, rounds] = merge(&mut whole, part)?;
         text += &format!("{}: {answers} answers, {rounds} timed rounds\n", part.display());
     }
+    tell(&mut whole);
     let suite = whole.answers.first().map(|point| point.suite.clone()).unwrap_or_default();
     Ok(text + &finish(&whole, &format!("Shadowgraph: {suite}"), "", false)?)
 }

@@ -52,7 +52,13 @@ fn ports_text(report: &Report) -> String {
     }
     text += &match &report.first_difference {
         Some(node) => format!("first node that differs: {node}\n"),
-        None => "no node differs\n".into(),
+        None => match report.ports.iter().find(|row| !row.comparison.is_equivalent()) {
+            None => "no node differs\n".into(),
+            Some(row) => format!(
+                "no node makes other values of the same inputs; the first that are not the same: {}.{}\n",
+                row.node, row.port
+            ),
+        },
     };
     for row in report.ports.iter().filter(|row| row.is_fault()) {
         text += &format!("NOT AS ITS CONTRACT ALLOWS: {}.{}: {}\n", row.node, row.port, row.comparison.text());
