@@ -72,7 +72,8 @@ pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) ->
         };
         let is_equivalent = |(port, slot): &(&'static str, SlotId)| {
             !unequal.contains(slot)
-                && (was_compared(port, slot) || around_a(port).zip(around_b(port)).is_none_or(|(one, other)| one == other))
+                && (was_compared(port, slot)
+                    || around_a(port).zip(around_b(port)).is_none_or(|(one, other)| one == other))
         };
         let inputs_are_equivalent = node.inputs.iter().all(is_equivalent);
         for (port, slot) in &node.outputs {

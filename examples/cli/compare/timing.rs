@@ -74,7 +74,7 @@ pub fn time<'t>(
                 Side::B => &mut *b,
             };
             if is_warmed {
-                trial.frame(false)?;
+                paired.spend(trial.frame(false)?.millis);
             }
             let mut frames = Vec::with_capacity(frames_count);
             for _ in 0..frames_count {

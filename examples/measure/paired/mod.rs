@@ -1,9 +1,9 @@
 //! Is B slower than A, by how much, and is that certain? Blocks of four timings, in an order that chance decides.
 //!
 //! **A block** times A B B A or B A A B, as a fair coin says, and gives one number: the logarithm of the smaller time of B over the
-//! smaller time of A. Other work makes a frame longer, never shorter, so the smaller of two is the one less disturbed: measured on a
-//! machine with four jobs for each core, it makes the median over blocks 1.4 to 6 times as sure as means of two do. Whatever slows the machine over a whole
-//! block cancels. The result is the median over blocks, turned back into a ratio: a block that a burst hit all the same is one
+//! smaller time of A. Other work makes a frame longer, never shorter, so the smaller of two is the one less disturbed: on a machine
+//! with four jobs for each core it made the median over blocks surer than means of two did, 1.4 to 6 times in most of the long runs
+//! and not at all in the short ones. Whatever slows the machine over a whole block cancels. The result is the median over blocks, turned back into a ratio: a block that a burst hit all the same is one
 //! outlier, not a shifted mean. Both make it a ratio of usual frames; how long the rare slow ones take is a question for a percentile
 //! of all frames.
 //!
