@@ -149,9 +149,8 @@ impl Store {
     /// # Errors
     /// The file cannot be written.
     pub fn forget_earlier(&mut self, now: &[&Point]) -> Result<usize, Problem> {
-        let name = |point: &Point| {
-            [&point.suite, &point.scene, &point.graph, &point.label, &point.backend].map(String::clone)
-        };
+        let name =
+            |point: &Point| [&point.suite, &point.scene, &point.graph, &point.label, &point.backend].map(String::clone);
         let ids: HashSet<&str> = now.iter().map(|point| point.id.as_str()).collect();
         let names: HashSet<_> = now.iter().map(|point| name(point)).collect();
         let is_earlier = |point: &Point| names.contains(&name(point)) && !ids.contains(point.id.as_str());

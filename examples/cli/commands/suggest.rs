@@ -163,7 +163,9 @@ fn report(
         text += &format!("  {} cannot be told from it by time\n", other.label);
     }
     text += "\n";
-    text + &graph.unwrap_or_else(|| "no suite here has this variant, so there is no graph to show: name its file by --suite\n".into())
+    text + &graph.unwrap_or_else(|| {
+        "no suite here has this variant, so there is no graph to show: name its file by --suite\n".into()
+    })
 }
 
 /// What comes nearest to a bound that nothing meets.
