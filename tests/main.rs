@@ -3,7 +3,9 @@
 mod area_lights;
 mod baselines;
 mod bench;
+mod chart_runs;
 mod closed_form;
+mod compare;
 mod contamination;
 mod counters;
 mod device_raster;
@@ -11,11 +13,15 @@ mod docs;
 mod frames;
 mod gpu;
 mod graphs;
+mod help;
 mod pairs;
+mod planted;
 mod program;
 mod ranges;
 mod shading;
+mod suggest;
 mod suite;
+mod suites;
 mod tidy;
 mod truth;
 mod twins;
@@ -44,6 +50,11 @@ fn main() -> ExitCode {
     trials.extend(shading::trials());
     trials.extend(frames::trials());
     trials.extend(baselines::trials());
+    trials.extend(compare::trials());
+    trials.extend(suites::trials());
+    trials.extend(chart_runs::trials());
+    trials.extend(suggest::trials());
+    trials.extend(help::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

@@ -86,8 +86,8 @@ fn light_sets() -> Result<(), Failed> {
     Ok(())
 }
 
-/// The program, built by this test run.
-fn program(words: &[&str]) -> Result<Output, Failed> {
+/// Where the program lies that this test run built.
+pub fn program_path() -> Result<PathBuf, Failed> {
     let mut path = std::env::current_exe().map_err(|error| error.to_string())?;
     path.pop();
     if path.ends_with("deps") {
@@ -97,7 +97,11 @@ fn program(words: &[&str]) -> Result<Output, Failed> {
     if !path.exists() {
         return Err(format!("{} is not built; run the tests of the whole workspace", path.display()).into());
     }
-    Command::new(path).args(words).current_dir(root()).output().map_err(|error| error.to_string().into())
+    Ok(path)
+}
+
+fn program(words: &[&str]) -> Result<Output, Failed> {
+    Command::new(program_path()?).args(words).current_dir(root()).output().map_err(|error| error.to_string().into())
 }
 
 fn folder() -> Result<(tempfile::TempDir, String), Failed> {
@@ -110,7 +114,8 @@ fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-fn stderr(output: &Output) -> String {
+/// What it said on stderr.
+pub fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 

@@ -204,8 +204,9 @@ fn suite(tree: &Tree, reader: &mut Reader, scenes_folder: Option<&Path>) -> Opti
             if scenes.iter().any(|earlier| earlier.name == entry.name) {
                 let problem = Problem::new(Kind::Duplicate, format!("scene {:?} is named twice", entry.name));
                 reader.problem(item.span, problem.remedy("give each scene and view a name of its own"));
+            } else {
+                scenes.push(entry);
             }
-            scenes.push(entry);
         }
     }
     let mut variants = Vec::new();
@@ -359,7 +360,8 @@ fn method(tree: &Tree, reader: &mut Reader, scenes: &[SceneEntry]) -> Option<Vec
         let problem = Problem::new(Kind::UnknownName, "the quality is no axis of the method")
             .expected(known.join(", "))
             .found(&quality.text);
-        reader.problem(quality.span, problem);
+        let near = nearest(&quality.text, known.iter().copied()).map(|near| format!("did you mean {near}?"));
+        reader.problem(quality.span, Problem { remedy: near, ..problem });
     }
     let only = value(&fields, "only").map(|value| reader.names(value, "only")).unwrap_or_default();
     for name in only.iter().filter(|name| scenes.iter().all(|scene| scene.name != name.text)) {

@@ -9,6 +9,9 @@ use shadowgraph_core::pass::Contract;
 use shadowgraph_core::plan::{Node, SlotId};
 use std::collections::HashSet;
 
+/// Stages that lay out what others found: of another superset they make another table, and masks made from it are still the same.
+const TABLES: [&str; 2] = ["scan", "caster_fill"];
+
 /// One output of a node that both sides have.
 #[derive(Clone, Debug, Serialize)]
 pub struct PortRow {
@@ -51,6 +54,8 @@ pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) ->
         }
     }
     let mut uncompared: HashSet<SlotId> = HashSet::new();
+    // Equivalent, and not the same.
+    let mut alike: HashSet<SlotId> = HashSet::new();
     let mut rows = Vec::new();
     for (index, node) in b.0.plan.nodes.iter().enumerate() {
         if shared.iter().any(|(of_b, _)| *of_b == index) {
@@ -83,8 +88,14 @@ pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) ->
             if *port != "mask" && have_other_parameters(twin, node) {
                 comparison = comparison.of_other_parameters();
             }
-            if !comparison.is_equivalent() {
-                unequal.insert(*slot);
+            let follows = inputs_are_equivalent && node.inputs.iter().any(|(_, slot)| alike.contains(slot));
+            if follows && TABLES.contains(&node.pass.stage.name) && !comparison.is_equivalent() {
+                comparison = Comparison::Allowed { why: "follows from what it reads".into() };
+            }
+            match comparison {
+                Comparison::Equal => {}
+                Comparison::Allowed { .. } => _ = alike.insert(*slot),
+                _ => _ = unequal.insert(*slot),
             }
             rows.push(PortRow { node: node.id.clone(), port, comparison, inputs_are_equivalent });
         }

@@ -150,7 +150,8 @@ fn timing_text(timing: &Timing, report: &Report) -> String {
 
 /// A verdict needs blocks enough for a sign test at its confidence.
 fn too_short(timing: &Timing) -> String {
-    let least = (1..).find(|count| sign_test(*count, *count) <= 1.0 - timing.frame.verdict_confidence).unwrap_or(0);
+    let least =
+        (1..).find(|count| sign_test(*count, *count) <= (1.0 - timing.frame.verdict_confidence) / 2.0).unwrap_or(0);
     match timing.frame.blocks_count {
         count if count < least => {
             format!(
