@@ -41,6 +41,7 @@ mod neighbours;
 mod own;
 mod patches;
 mod shaft;
+mod splits;
 #[cfg(test)]
 mod tests;
 mod tree;
