@@ -3,6 +3,7 @@
 use super::candidates::Candidates;
 use super::groups::{Blocks, Frame, LightBox, Slanted, every, size, tree_len};
 use super::neighbours::Neighbours;
+use super::order::Order;
 use super::own::{OwnPlanes, Owners, Verdict, World};
 use super::patches::{Choice, HELD_BACK, MIXED, Patches, UNKNOWN};
 use super::shaft::{CORNER_ERROR, EDGE_ERROR, PLANE_ERROR, Shaft, TINY, Vector, dot, dot_one, from, load, minus};
@@ -105,6 +106,7 @@ pub struct Worker {
     /// Memory of [`Self::decide_patches`].
     pub patches: Patches,
     stack: Vec<u32>,
+    order: Order,
     /// A bit a light sample of a block, for each view-sample by place and each block.
     pub masks: Vec<u16>,
     /// What was counted.
@@ -136,7 +138,12 @@ impl Worker {
         self.list.len = 0;
         self.gather(simd, scene);
         if self.list.len > 0 {
-            self.divide(simd, scene, views, lights, 0);
+            let end = self.list.len;
+            simd.vectorize(
+                #[inline(always)]
+                || self.order.push_sorted(simd, &mut self.list),
+            );
+            self.divide(simd, scene, views, lights, end);
         } else {
             self.counts.lit += 1;
         }
@@ -169,12 +176,20 @@ impl Worker {
                 }
             }
         }
-        // What the own triangles let through; the rest leaves the list.
+        simd.vectorize(
+            #[inline(always)]
+            || self.hold_back(simd, scene),
+        );
+    }
+
+    /// Takes what own triangles hold back off the list, and gives the rest their slots.
+    #[inline(always)]
+    fn hold_back<S: Simd>(&mut self, simd: S, scene: &Scene) {
         let mut kept = 0;
         self.patches.clear(scene.world.triangles.len());
         for place in 0..self.list.len {
             let triangle = scene.casters.id[self.list.slot[place] as usize];
-            let verdict = self.own.judge(&scene.world, &self.list, place, triangle);
+            let verdict = self.own.judge(simd, &scene.world, &self.list, place, triangle);
             if verdict == Verdict::Never {
                 self.patches.name(triangle, HELD_BACK);
             } else {

@@ -89,7 +89,7 @@ impl Worker {
                         continue;
                     }
                 }
-                match self.judge_slot(scene, place + lane, views.node) {
+                match self.judge_slot(simd, scene, place + lane, views.node) {
                     Verdict::Plain => mixed ^= bit,
                     Verdict::Never => (mixed, keep) = (mixed ^ bit, keep ^ bit),
                     Verdict::Mixed(_) | Verdict::Open => {}
@@ -106,11 +106,12 @@ impl Worker {
         Some(views_wider)
     }
 
-    fn judge_slot(&mut self, scene: &Scene, place: usize, node: usize) -> Verdict {
+    #[inline(always)]
+    fn judge_slot<S: Simd>(&mut self, simd: S, scene: &Scene, place: usize, node: usize) -> Verdict {
         let slot = self.list.slot[place] as usize;
         if self.slots[slot].verdict == Verdict::Open {
             let triangle = self.slots[slot].triangle;
-            self.slots[slot].verdict = self.own.judge_each(&scene.world, &self.list, place, triangle);
+            self.slots[slot].verdict = self.own.judge_each(simd, &scene.world, &self.list, place, triangle);
         }
         match self.slots[slot].verdict {
             Verdict::Mixed(row) => self.own.judge_for(&self.owners[node], row),

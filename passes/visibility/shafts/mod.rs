@@ -38,6 +38,7 @@ mod divide;
 mod groups;
 mod leaf;
 mod neighbours;
+mod order;
 mod own;
 mod patches;
 mod shaft;
