@@ -38,6 +38,15 @@ impl Worker {
                 if views.len() == 1
                     && simd.vectorize(
                         #[inline(always)]
+                        || self.cast(simd, scene, views.first, lights, end),
+                    ) =>
+            {
+                self.counts.by_rays += 1;
+            }
+            Some(_)
+                if views.len() == 1
+                    && simd.vectorize(
+                        #[inline(always)]
                         || self.sift(simd, views.first, lights, end),
                     ) =>
             {

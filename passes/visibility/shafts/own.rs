@@ -85,6 +85,17 @@ pub enum Verdict {
     Open,
 }
 
+/// For how many light samples a view-sample's own triangle lets a caster through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Admits {
+    /// All.
+    All,
+    /// None.
+    None,
+    /// Those that [`OwnPlanes::allowed_lights`] tells.
+    Some,
+}
+
 /// Whether a caster has corners strictly there.
 const ABOVE: u8 = 1;
 const BELOW: u8 = 2;
@@ -344,6 +355,35 @@ impl OwnPlanes {
             possible |= u16::from(at == NONE || !has(never, at)) << lane;
         }
         possible
+    }
+
+    /// What view-sample `view` makes of the caster of `row`.
+    #[inline]
+    pub fn admits(&self, row: u32, view: usize) -> Admits {
+        let (at, row) = (self.of_view[view], &self.rows[row as usize]);
+        if at == NONE || has(&row.plain, at) {
+            Admits::All
+        } else if has(&row.never, at) {
+            Admits::None
+        } else {
+            Admits::Some
+        }
+    }
+
+    /// Those of sixteen light samples for which view-sample `view`, which admits some, lets the caster of `row` through.
+    /// `order`: light samples by place.
+    pub fn allowed_lights(&mut self, world: &World, row: u32, view: usize, order: &[u32]) -> u16 {
+        let (at, row) = (self.of_view[view], &self.rows[row as usize]);
+        let (above, below) = (has(&row.above, at), has(&row.below, at));
+        let sides = self.planes[usize::from(at)].sides(world);
+        order.iter().enumerate().fold(0, |allowed, (lane, light)| {
+            let admits = match sides[*light as usize] {
+                0 => true,
+                1 => above,
+                _ => below,
+            };
+            allowed | u16::from(admits) << lane
+        })
     }
 
     /// For each of sixteen light samples, a bit for each of sixteen view-samples that lets the caster of `row` through.
