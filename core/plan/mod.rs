@@ -1,6 +1,7 @@
 //! The plan: all that a backend ever sees.
 
 mod given;
+mod pinned;
 
 use crate::array::Element;
 use crate::param::Params;

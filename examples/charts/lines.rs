@@ -157,7 +157,9 @@ mod tests {
             let mut again = [&bytes[..lines.whole_bytes], lines.lead.as_bytes()].concat();
             for id in 1..=2 {
                 let missing = !lines.records.iter().any(|have| have.id == point(id, 0.0).id);
-                again.extend(missing.then(|| file(&[point(id, id as f64)])).unwrap_or_default().bytes());
+                if missing {
+                    again.extend(file(&[point(id, id as f64)]).bytes());
+                }
             }
             let read = read::<Point>(&again, "p.jsonl").unwrap();
             assert_eq!((read.records, read.replaced_count), (vec![point(1, 1.0), point(2, 2.0)], 0), "cut at {cut}");

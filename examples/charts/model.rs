@@ -253,6 +253,24 @@ pub enum Sequence {
     OpeningMeshes,
 }
 
+impl Sequence {
+    /// Name in words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Still => "still",
+            Self::LightOrbit => "light orbit",
+            Self::CameraPan => "camera pan",
+            Self::Zoom => "zoom",
+            Self::WorldScale => "world scale",
+            Self::FarFromOrigin => "far from origin",
+            Self::GrowingLight => "growing light",
+            Self::Tessellation => "tessellation",
+            Self::ClosingContact => "closing contact",
+            Self::OpeningMeshes => "opening meshes",
+        }
+    }
+}
+
 /// One frame of a sequence.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -316,6 +334,13 @@ pub enum Verdict {
     },
 }
 
+impl Verdict {
+    /// Whether it contradicts what theory says. A method that was not run contradicts nothing.
+    pub fn surprises(&self, expected: Expected) -> bool {
+        matches!((self, expected), (Self::Fails, Expected::MustHold) | (Self::Holds, Expected::ExpectedToFail))
+    }
+}
+
 /// What theory says about a method on a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -326,4 +351,15 @@ pub enum Expected {
     ExpectedToFail,
     /// Nothing is claimed.
     Open,
+}
+
+impl Expected {
+    /// Name in words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::MustHold => "must hold",
+            Self::ExpectedToFail => "expected to fail",
+            Self::Open => "open",
+        }
+    }
 }

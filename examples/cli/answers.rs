@@ -6,7 +6,7 @@ use crate::outcome::Outcome;
 use shadowgraph_charts::model::Errors;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::metric::{Leaks, Penumbra, grey_errors, mask_difference, penumbra_widths};
-use shadowgraph_core::plan::{Plan, Producer};
+use shadowgraph_core::plan::{Plan, Producer, Slot};
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::shared::{FACING_AWAY, KEPT, NO_TRIANGLE};
 use shadowgraph_cpu::Progress;
@@ -44,10 +44,17 @@ impl Answers {
     /// # Errors
     /// The graph keeps no view-samples, or neither masks nor visible fractions.
     pub fn of(plan: &Plan, outcome: &Outcome, job: &Job) -> Result<Self, Problem> {
+        Self::of_values(plan, |name| plan.slot(name).and_then(|id| outcome.values.try_get(id)).cloned(), job)
+    }
+
+    /// Finds them among values by slot name.
+    ///
+    /// # Errors
+    /// As [`Answers::of`].
+    pub fn of_values(plan: &Plan, value: impl Fn(&str) -> Option<Array>, job: &Job) -> Result<Self, Problem> {
         let find = |quantity: &str| {
-            let slots = plan.slots.iter().enumerate();
-            let mut made = slots.filter(|(_, slot)| slot.port.quantity == quantity && slot.name.contains('.'));
-            made.find_map(|(id, _)| outcome.values.try_get(id)).cloned()
+            let made = |slot: &&Slot| slot.port.quantity == quantity && slot.name.contains('.');
+            plan.slots.iter().filter(made).find_map(|slot| value(&slot.name))
         };
         let need = |quantity: &str| {
             find(quantity).ok_or_else(|| {
@@ -125,7 +132,7 @@ impl Answers {
 
 /// Whether the mask has a bit of its own for each light sample: filtered shadow maps fill theirs with what a majority says.
 fn has_bits(plan: &Plan) -> bool {
-    let made_by = |slot: &shadowgraph_core::plan::Slot| match slot.producer {
+    let made_by = |slot: &Slot| match slot.producer {
         Producer::Node(node) => Some(&plan.nodes[node]),
         Producer::Input => None,
     };

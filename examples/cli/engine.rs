@@ -63,6 +63,11 @@ impl Machine {
         Self { ranges: ranges as usize, ..self }
     }
 
+    /// With a device, for nodes that are pinned to it later.
+    pub fn open(&mut self, session: &'static Session) {
+        self.session = Some(session);
+    }
+
     /// Opens a session if `plan` has a node that needs one.
     ///
     /// # Errors

@@ -4,6 +4,7 @@
 pub mod answers;
 pub mod args;
 pub mod commands;
+pub mod compare;
 pub mod converged;
 pub mod dump;
 pub mod engine;

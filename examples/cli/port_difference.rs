@@ -14,9 +14,19 @@ use std::ops::Range;
 pub enum Comparison {
     /// The same bits, or the same sets.
     Equal,
-    /// Other bits, but as the contract allows.
+    /// Other bits where any would do: an order that is unspecified, another superset.
     Allowed {
         /// What differs, and what allows it.
+        why: String,
+    },
+    /// Other numbers, within the bound or the share of wrong bits that the contract states.
+    Within {
+        /// What differs, and what allows it.
+        why: String,
+    },
+    /// Other bits from a pass that only approximates: charted, never judged here.
+    Approximation {
+        /// What differs.
         why: String,
     },
     /// Other than the contract allows.
@@ -41,6 +51,23 @@ impl Comparison {
     /// Whether it is a difference that the contract does not allow.
     pub fn differs(&self) -> bool {
         matches!(self, Self::Differs { .. })
+    }
+
+    /// Whether what reads the value must answer alike for both.
+    pub fn is_equivalent(&self) -> bool {
+        matches!(self, Self::Equal | Self::Allowed { .. })
+    }
+
+    /// In a few words.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Equal => "equal".into(),
+            Self::Allowed { why } | Self::Within { why } | Self::Approximation { why } => why.clone(),
+            Self::Differs { count, of, first_row, what } => {
+                format!("{count} of {of} {what}; first at row {first_row}")
+            }
+            Self::NotCompared { why } => format!("not compared: {why}"),
+        }
     }
 }
 
@@ -91,9 +118,9 @@ fn values(one: &Array, other: &Array, contract: Contract) -> Comparison {
     let columns = one.shape().iter().skip(1).product::<usize>().max(1);
     match contract {
         Contract::Within(bound) if largest <= bound => {
-            Comparison::Allowed { why: format!("{count} words differ by at most {largest:.1e}, within {bound:.1e}") }
+            Comparison::Within { why: format!("{count} words differ by at most {largest:.1e}, within {bound:.1e}") }
         }
-        Contract::Approximate => Comparison::Allowed { why: format!("an approximation: {count} words differ") },
+        Contract::Approximate => Comparison::Approximation { why: format!("an approximation: {count} words differ") },
         _ => Comparison::Differs {
             count,
             of: one.words().len() as u64,
@@ -112,9 +139,10 @@ fn masks(one: &Array, other: &Array, contract: Contract, lights: usize) -> Compa
     match contract {
         _ if count == 0 => Comparison::Equal,
         Contract::WrongBits(share) if difference.wrong_share() <= f64::from(share) => {
-            Comparison::Allowed { why: format!("{count} bits differ, a share within {share:.1e}") }
+            let of = difference.bits_count;
+            Comparison::Within { why: format!("{count} of {of} bits differ, a share within {share:.1e}") }
         }
-        Contract::Approximate => Comparison::Allowed { why: format!("an approximation: {count} bits differ") },
+        Contract::Approximate => Comparison::Approximation { why: format!("an approximation: {count} bits differ") },
         _ => Comparison::Differs {
             count,
             of: difference.bits_count,
@@ -235,13 +263,13 @@ mod tests {
             off,
             Comparison::Differs { count: 1, of: 4, first_row: 1, what: "numbers, by 2.5e-1 at most".into() }
         );
-        assert!(matches!(values(&floats(4.0), &floats(4.1), Contract::Within(0.1)), Comparison::Allowed { .. }));
+        assert!(matches!(values(&floats(4.0), &floats(4.1), Contract::Within(0.1)), Comparison::Within { .. }));
         assert!(values(&floats(4.0), &floats(f32::NAN), Contract::Within(0.1)).differs());
         let words = |last: u32| Array::u32([2, 1], vec![1, last]);
         assert!(values(&words(1), &words(2), Contract::Within(10.0)).differs());
         assert!(masks(&words(1), &words(3), Contract::Exact, 2).differs());
         assert_eq!(masks(&words(1), &words(5), Contract::Exact, 2), Comparison::Equal);
-        assert!(matches!(masks(&words(1), &words(3), Contract::WrongBits(0.5), 2), Comparison::Allowed { .. }));
+        assert!(matches!(masks(&words(1), &words(3), Contract::WrongBits(0.5), 2), Comparison::Within { .. }));
         assert!(masks(&words(1), &words(3), Contract::WrongBits(0.1), 2).differs());
     }
 

@@ -12,7 +12,7 @@
 //! [`shadowgraph_core::problem::Problem`], never left out.
 #![forbid(unsafe_code)]
 
-// pub mod flip;
+pub mod flip;
 pub mod paired;
 pub mod pareto;
 pub mod statistics;

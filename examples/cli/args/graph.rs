@@ -4,7 +4,7 @@ use super::BackendChoice;
 use clap::Args;
 
 /// What to run and how it differs from the file.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct GraphChoice {
     /// A graph file, or a built-in name (see `shadowgraph graph --list`)
     #[arg(default_value = "hard")]

@@ -1,6 +1,7 @@
 //! The command line, as clap sees it: one file a command, and one for what several take.
 
 mod check;
+mod compare;
 mod graph;
 mod listings;
 mod render;
@@ -9,6 +10,7 @@ mod scene;
 mod verify;
 
 pub use check::CheckArgs;
+pub use compare::CompareArgs;
 pub use graph::{GraphArgs, GraphChoice};
 pub use listings::{ExportArgs, PassesArgs, ScenesArgs};
 pub use render::RenderArgs;
@@ -42,6 +44,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Run a graph and the exact truth on the same view-samples, and report wrong bits
     Verify(VerifyArgs),
+    /// Compare two graphs, or two variants of one: what differs, which is faster and how certain that is, which is wrong and where
+    Compare(CompareArgs),
     /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU
     Check(CheckArgs),
     /// Print a graph: its plan, or a drawing

@@ -1,6 +1,7 @@
 //! One file a subcommand. Each returns what to print and the exit status; only `main` prints.
 
 pub mod check;
+pub mod compare;
 pub mod export;
 pub mod graph;
 pub mod passes;

@@ -97,14 +97,16 @@ impl Machine {
                 self.wander = 0.98 * self.wander + 0.15 * (1.0 - 0.98f64.powi(2)).sqrt() * normal(random);
                 jitter * self.wander.exp()
             }
-            Noise::InStep => jitter * if (self.frame + (self.phase * 4.0) as u64) % 4 == 0 { 1.3 } else { 1.0 },
+            Noise::InStep => {
+                jitter * if (self.frame + (self.phase * 4.0) as u64).is_multiple_of(4) { 1.3 } else { 1.0 }
+            }
             Noise::TwoPaces => {
                 self.busy ^= random.f64() < 1.0 / 40.0;
                 jitter * if self.busy { 1.25 } else { 1.0 }
             }
             Noise::Switching => jitter * if side == self.last { 1.0 } else { 1.08 },
             Noise::Shared => {
-                let turn = if (self.frame / 9) % 2 == 0 { 1.4 } else { 1.0 };
+                let turn = if (self.frame / 9).is_multiple_of(2) { 1.4 } else { 1.0 };
                 let hiccup = if random.f64() < 0.03 { 3.0 } else { 1.0 };
                 jitter * jitter * turn * hiccup
             }

@@ -52,13 +52,18 @@ fn first_with<'a>(outside: f64, mut walk: impl Iterator<Item = &'a (f64, f64)>) 
 fn medians(values: &[f64]) -> Vec<(f64, f64)> {
     let count = values.len();
     let upper = |i: usize, k: usize| tail(count as u64, k as u64, i as f64 / count as f64);
-    // Ranks of the middle spread over half the root of the count; twenty-four times that holds all that counts.
+    // Ranks of the middle have a standard deviation of half the root of the count; ten of it hold all that counts.
     let middle = count / 2;
-    let reach = 12 * (count as f64).sqrt().ceil() as usize + 1;
+    let reach = 5 * (count as f64).sqrt().ceil() as usize + 1;
     let ranks = middle.saturating_sub(reach).max(1)..=(middle + reach).min(count);
+    let mut before = 0.0;
+    let mut at = |i: usize, k: usize| {
+        let upto = upper(i, k);
+        upto - std::mem::replace(&mut before, upto)
+    };
     if count % 2 == 1 {
         let k = middle + 1;
-        return ranks.map(|i| (values[i - 1], upper(i, k) - upper(i - 1, k))).collect();
+        return ranks.map(|i| (values[i - 1], at(i, k))).collect();
     }
     // Even: the k-th of the resample is value i and the next one is value j, for n = 2 k draws. With i < j, k draws are at most i, one
     // of them i itself, and k draws are at least j, one of them j itself.
@@ -73,7 +78,7 @@ fn medians(values: &[f64]) -> Vec<(f64, f64)> {
     for i in ranks {
         let low = ways + ends_at(i);
         let above = low + k as f64 * (1.0 - share(i)).ln();
-        let alone = upper(i, k) - upper(i - 1, k) - above.exp();
+        let alone = at(i, k) - above.exp();
         medians.push((values[i - 1], alone.max(0.0)));
         for j in i + 1..=count {
             // By symmetry: k draws that start at j from above end there from below.
