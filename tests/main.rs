@@ -14,6 +14,7 @@ mod pairs;
 mod program;
 mod ranges;
 mod shading;
+mod stability;
 mod suite;
 mod tidy;
 mod truth;
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
     trials.extend(shading::trials());
     trials.extend(frames::trials());
     trials.extend(baselines::trials());
+    trials.extend(stability::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

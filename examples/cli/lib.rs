@@ -21,6 +21,7 @@ pub mod port_difference;
 pub mod ranges;
 pub mod record;
 pub mod report;
+pub mod stability;
 pub mod stretch;
 pub mod texture;
 pub mod trial;

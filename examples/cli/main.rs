@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use shadowgraph::args::{Cli, Command};
-use shadowgraph::commands::{check, compare, export, graph, passes, render, scenes, verify};
+use shadowgraph::commands::{check, compare, export, graph, passes, render, scenes, stability, verify};
 use shadowgraph_core::problem::Problems;
 use std::io::Write;
 use std::process::ExitCode;
@@ -34,6 +34,7 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
     let threads = match command {
         Command::Render(args) => args.run.threads,
         Command::Verify(args) => args.run.threads,
+        Command::Stability(args) => args.threads,
         Command::Compare(args) => args.threads,
         _ => 0,
     };
@@ -43,6 +44,7 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
         Command::Render(args) => (render::text(&catalogue, args)?, true),
         Command::Verify(args) => verify::text(&catalogue, args)?,
         Command::Compare(args) => compare::text(&catalogue, args)?,
+        Command::Stability(args) => stability::text(&catalogue, args)?,
         Command::Check(args) => check::text(&catalogue, args),
         Command::Graph(args) => (graph::text(&catalogue, args)?, true),
         Command::Passes(args) => (passes::text(&catalogue, args)?, true),

@@ -7,6 +7,7 @@ mod listings;
 mod render;
 mod run;
 mod scene;
+mod stability;
 mod verify;
 
 pub use check::CheckArgs;
@@ -16,6 +17,7 @@ pub use listings::{ExportArgs, PassesArgs, ScenesArgs};
 pub use render::RenderArgs;
 pub use run::{BackendChoice, RunChoice};
 pub use scene::{GeneratorChoice, LightChoice, SceneChoice, ShapeChoice};
+pub use stability::StabilityArgs;
 pub use verify::VerifyArgs;
 
 use clap::{Parser, Subcommand};
@@ -46,6 +48,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Compare two graphs, or two variants of one: what differs, which is faster and how certain that is, which is wrong and where
     Compare(CompareArgs),
+    /// Run methods along sequences over failure scenes, and report where each holds and where it breaks
+    Stability(StabilityArgs),
     /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU
     Check(CheckArgs),
     /// Print a graph: its plan, or a drawing

@@ -7,4 +7,5 @@ pub mod graph;
 pub mod passes;
 pub mod render;
 pub mod scenes;
+pub mod stability;
 pub mod verify;
