@@ -36,7 +36,6 @@ pub fn text(catalogue: &Catalogue, args: &StabilityArgs) -> Result<(String, bool
     let cpu = Machine::new(BackendChoice::Cpu)?;
     let mut records = Records::open(&args.out, args.shard)?;
     let progress = Progress::new(args.quiet);
-    let started = now();
     let mut runner = Runner {
         suite: &suite,
         catalogue,
@@ -46,12 +45,12 @@ pub fn text(catalogue: &Catalogue, args: &StabilityArgs) -> Result<(String, bool
         methods: &args.method,
         scenes: &args.scene,
         shard: args.shard,
-        started: started.clone(),
+        started: now(),
         progress: &|what, done, total| progress.tell(what, done, total),
     };
-    let ids = runner.run(&mut records)?;
+    let asked = runner.run(&mut records)?;
     drop(progress);
-    let found: Vec<&Stability> = ids.iter().filter_map(|id| records.find(id)).collect();
+    let found: Vec<&Stability> = asked.iter().filter_map(|asked| records.find(&asked.id)).collect();
     let path = |name: &str| args.out.join(name);
     let write =
         |name: &str, text: &str| std::fs::write(path(name), text).map_err(|error| file_problem(&path(name), &error));
@@ -70,7 +69,7 @@ pub fn text(catalogue: &Catalogue, args: &StabilityArgs) -> Result<(String, bool
     for remark in records.remarks.iter().chain(&page.remarks) {
         printed.push_str(&format!("note: {remark}\n"));
     }
-    let earlier = found.iter().filter(|record| record.provenance.started != started).count();
+    let earlier = asked.iter().filter(|asked| asked.was_there).count();
     let page = path("stability.html").display().to_string();
     printed.push_str(&format!("{} records, {earlier} of them of earlier runs; {page}\n", found.len()));
     Ok((printed, text::is_accepted(&found)))

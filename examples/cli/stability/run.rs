@@ -44,16 +44,22 @@ pub struct Runner<'a> {
     pub progress: &'a dyn Fn(&str, usize, usize),
 }
 
-/// What is asked for: ids of its records, in the order of the suite.
-pub type Ids = Vec<String>;
+/// A record that the suite asks for.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// Its number.
+    pub id: String,
+    /// Whether an earlier run or another shard had measured it.
+    pub was_there: bool,
+}
 
 impl Runner<'_> {
-    /// Runs what has no record yet. Records of an earlier run are judged again, so that a suite with other thresholds or
+    /// Runs what has no record yet, and says what was asked for, in the order of the suite. Records of an earlier run are judged again, so that a suite with other thresholds or
     /// expectations needs no second measurement.
     ///
     /// # Errors
     /// A scene that cannot be loaded; files that cannot be written. What keeps a single method from running becomes its record.
-    pub fn run(&mut self, records: &mut Records) -> Result<Ids, Problems> {
+    pub fn run(&mut self, records: &mut Records) -> Result<Vec<Asked>, Problems> {
         let suite = self.suite;
         let is_chosen = |names: &[String], name: &str| names.is_empty() || names.iter().any(|chosen| chosen == name);
         let takes = |position: usize, scene: usize| {
@@ -64,37 +70,40 @@ impl Runner<'_> {
         let methods: Vec<usize> =
             (0..suite.methods.len()).filter(|index| is_chosen(self.methods, &suite.methods[*index].name)).collect();
         let total = cases.len() * methods.len();
-        let mut ids = Vec::new();
+        let mut asked = Vec::new();
         for (scene, sequence) in cases {
             let (entry, along) = (&suite.scenes[scene], &suite.sequences[sequence]);
             let title = format!("{}, {}", entry.name, suite::parameter(along.change).0);
-            (self.progress)(&title, ids.len(), total);
+            (self.progress)(&title, asked.len(), total);
             let frames = Bench { catalogue: self.catalogue, cpu: self.cpu }.frames(suite, entry, along)?;
             let mut case = Case { entry, along, frames, truths: HashMap::new() };
             for index in &methods {
                 let method = &suite.methods[*index];
-                (self.progress)(&format!("{title}: {}", method.name), ids.len(), total);
+                (self.progress)(&format!("{title}: {}", method.name), asked.len(), total);
                 let says = suite.expected(*index, scene, along.change);
                 let ready = self.ready(&case, method)?;
-                let record = match records.find(&ready.id) {
+                let earlier = records.find(&ready.id);
+                let was_there = earlier.is_some();
+                let record = match earlier {
                     Some(earlier) => judged_again(earlier, method, says),
                     None => Some(self.record(&mut case, method, &ready, says)?),
                 };
                 if let Some(record) = record {
                     records.add(record)?;
                 }
-                ids.push(ready.id);
+                asked.push(Asked { id: ready.id, was_there });
             }
         }
         (self.progress)("", total, total);
-        Ok(ids)
+        Ok(asked)
     }
 
     /// Plans a method for every frame.
     fn ready(&mut self, case: &Case, method: &Method) -> Result<Ready, Problem> {
         let device = self.machine.record();
         // Two methods may come to one plan, on a light that is not planar, say: the name keeps their records apart.
-        let mut id = Hash::new().text(&method.name).text(&self.suite.size).text(&case.entry.choice.scene).text(device.backend);
+        let mut id = Hash::new().text(&method.name).text(&case.entry.name).text(&case.entry.choice.scene);
+        id = id.text(&self.suite.size).text(device.backend);
         id = id.text(&device.adapter).text(&device.driver).words(&[self.suite.contact_ulps.to_bits()]);
         id = id.words(&[method.light_samples, method.truth_light_samples, case.along.change as u32]);
         let mut plans = Ok(Vec::new());
@@ -112,7 +121,7 @@ impl Runner<'_> {
             if scene == Hash::new() {
                 scene = inputs;
             }
-            id = id.text(&inputs.digits()).words(&[(frame.value as f32).to_bits()]);
+            id = id.text(&inputs.digits()).text(&frame.value.to_string());
             match plan {
                 Ok(plan) => {
                     id = id.plan(&plan);
