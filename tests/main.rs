@@ -19,6 +19,7 @@ mod planted;
 mod program;
 mod ranges;
 mod shading;
+mod stability;
 mod suggest;
 mod suite;
 mod suites;
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
     trials.extend(chart_runs::trials());
     trials.extend(suggest::trials());
     trials.extend(help::trials());
+    trials.extend(stability::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

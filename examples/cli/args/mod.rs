@@ -9,6 +9,7 @@ mod profile;
 mod render;
 mod run;
 mod scene;
+mod stability;
 mod suggest;
 mod verify;
 
@@ -21,6 +22,7 @@ pub use profile::ProfileArgs;
 pub use render::RenderArgs;
 pub use run::{BackendChoice, MachineChoice, RunChoice};
 pub use scene::{GeneratorChoice, LightChoice, SceneChoice, ShapeChoice};
+pub use stability::StabilityArgs;
 pub use suggest::SuggestArgs;
 pub use verify::VerifyArgs;
 
@@ -62,6 +64,8 @@ pub enum Command {
     Merge(MergeArgs),
     /// Time each node of a graph, within whole frames and alone, with what it counted, its memory, and how far the clocks can be trusted
     Profile(ProfileArgs),
+    /// Run methods along sequences over failure scenes, and report where each holds and where it breaks
+    Stability(StabilityArgs),
     /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU. With --invariance: run them, and require the same values whatever must not matter
     Check(CheckArgs),
     /// Print a graph: its plan, or a drawing

@@ -9,5 +9,6 @@ pub mod passes;
 pub mod profile;
 pub mod render;
 pub mod scenes;
+pub mod stability;
 pub mod suggest;
 pub mod verify;

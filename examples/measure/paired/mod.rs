@@ -3,8 +3,9 @@
 //! **A block** times A B B A or B A A B, as a fair coin says, and gives one number: the logarithm of the smaller time of B over the
 //! smaller time of A. Other work makes a frame longer, never shorter, so the smaller of two is the one less disturbed: on a machine
 //! with four jobs for each core it made the median over blocks surer than means of two did, 1.4 to 6 times in most of the long runs
-//! and not at all in the short ones. Whatever slows the machine over a whole block cancels. The result is the median over blocks, turned back into a ratio: a block that a burst hit all the same is one
-//! outlier, not a shifted mean. Both make it a ratio of usual frames; how long the rare slow ones take is a question for a percentile
+//! and not at all in the short ones. Whatever slows the machine over a whole block cancels. The
+//! result is the median over blocks, turned back into a ratio: a block that a burst hit all the same is one outlier, not a shifted
+//! mean. Both make it a ratio of usual frames; how long the rare slow ones take is a question for a percentile
 //! of all frames.
 //!
 //! **Why the coin.** Other work may come in time with the blocks, last for many of them, grow or shrink. If A and B are the same, a

@@ -43,11 +43,7 @@ pub static PASS: Pass = Pass {
             doc: "on a GPU: (view-sample, caster, light sample) decided by arithmetic, where the coplanar rule is in doubt",
             kind: CounterKind::Info,
         },
-        Counter {
-            name: "pairs",
-            doc: "(view-sample, caster) pairs that were met",
-            kind: CounterKind::OnCpu,
-        },
+        Counter { name: "pairs", doc: "(view-sample, caster) pairs that were met", kind: CounterKind::OnCpu },
         Counter {
             name: "cut_pairs",
             doc: "pairs in which the caster may hide a part of the light",

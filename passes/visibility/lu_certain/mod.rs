@@ -41,11 +41,7 @@ pub static PASS: Pass = Pass {
             doc: "(view-sample, caster, light sample) that only exact arithmetic, on a GPU that of two floats, could decide",
             kind: CounterKind::Info,
         },
-        Counter {
-            name: "pairs",
-            doc: "(view-sample, caster) pairs that were met",
-            kind: CounterKind::OnCpu,
-        },
+        Counter { name: "pairs", doc: "(view-sample, caster) pairs that were met", kind: CounterKind::OnCpu },
         Counter {
             name: "cut_pairs",
             doc: "pairs in which the caster may hide a part of the light",
