@@ -51,7 +51,9 @@ fn profiles() -> Result<(), Failed> {
     let output = program(&[&common[..], &["--trace", &trace, "--csv", &csv]].concat())?;
     succeeded(&output)?;
     let text = stdout(&output);
-    for word in ["visibility", "alone", "P99", "4 whole frames, timers on", "timers cost", "readings in frames", "left out:"] {
+    for word in
+        ["visibility", "alone", "P99", "4 whole frames, timers on", "timers cost", "readings in frames", "left out:"]
+    {
         assert!(text.contains(word), "no {word} in\n{text}");
     }
     let read = |path: &str| std::fs::read_to_string(path).map_err(|error| error.to_string());
