@@ -77,6 +77,7 @@ impl<'a> Trial<'a> {
     /// As [`Machine::run`].
     pub fn frame(&mut self, timers: bool) -> Result<Frame, Problem> {
         let Some(ready) = &self.ready else {
+            self.forget();
             let how = How { is_warmed_up: true, timers, ..How::once(self.machine, self.job, &|_, _, _| {}) };
             let (frame, values) = self.machine.frame(self.plan, self.given, &how)?;
             self.outcome.values = values;
@@ -86,6 +87,14 @@ impl<'a> Trial<'a> {
         let mut frame = Frame::new(self.plan);
         frame.add(times.millis, ran(ready, &[times])?);
         Ok(frame)
+    }
+
+    /// Lets go of the values of the last frame on the CPU. Whoever times two trials by turns has both do so after each turn: else each
+    /// runs in the memory that the other leaves free, one in pages it has used before, the other in fresh ones.
+    pub fn forget(&mut self) {
+        if self.ready.is_none() {
+            self.outcome.values = Store::new(self.plan);
+        }
     }
 
     /// The values of the last frame.
