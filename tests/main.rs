@@ -3,6 +3,8 @@
 mod area_lights;
 mod baselines;
 mod bench;
+mod chart_place;
+mod chart_points;
 mod chart_runs;
 mod closed_form;
 mod compare;
@@ -54,6 +56,7 @@ fn main() -> ExitCode {
     trials.extend(compare::trials());
     trials.extend(suites::trials());
     trials.extend(chart_runs::trials());
+    trials.extend(chart_points::trials());
     trials.extend(suggest::trials());
     trials.extend(help::trials());
     trials.extend(stability::trials());

@@ -3,7 +3,8 @@
 use crate::bench::job;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::GraphChoice;
-use shadowgraph::chart::suite::{Suite, Variant, shard};
+use shadowgraph::chart::suite::{Suite, shard};
+use shadowgraph::chart::variant::Variant;
 use shadowgraph::graph_choice;
 use shadowgraph::suggest::graph_text;
 use shadowgraph_core::plan::Backend;

@@ -86,6 +86,7 @@ impl<'a> Trial<'a> {
     /// As [`Machine::run`].
     pub fn frame(&mut self, timers: bool) -> Result<Frame, Problem> {
         let Some(ready) = &self.ready else {
+            self.forget();
             let options = self.options.clone();
             let how = How { is_warmed_up: true, timers, options, ..How::once(self.machine, self.job, &|_, _, _| {}) };
             let (frame, values) = self.machine.frame(self.plan, self.given, &how)?;
@@ -98,6 +99,14 @@ impl<'a> Trial<'a> {
         let mut frame = Frame::new(self.plan);
         frame.add(self.plan, times.millis, ran(ready, &[times])?);
         Ok(frame)
+    }
+
+    /// Lets go of the values of the last frame on the CPU. Whoever times two trials by turns has both do so after each turn: else each
+    /// runs in the memory that the other leaves free, one in pages it has used before, the other in fresh ones.
+    pub fn forget(&mut self) {
+        if self.ready.is_none() {
+            self.outcome.values = Store::new(self.plan);
+        }
     }
 
     /// The values of the last frame.

@@ -1,21 +1,21 @@
 //! Runs a suite: every variant answers once for the same view-samples and is judged, then all variants of a scene are timed in
 //! rounds, so that what slows the machine for a while slows all of them.
 
+use super::inputs::{Jobs, MOST_OF_SET, Truths};
+use super::number::Number;
 use super::pictures;
 use super::store::{Round, Store};
-use super::suite::{SceneEntry, Suite, Variant};
-use crate::answers::{Answers, Truth, errors, view_samples};
-use crate::args::{BackendChoice, GraphChoice};
-use crate::converged::converged;
+use super::suite::{SceneEntry, Suite};
+use super::variant::Variant;
+use crate::answers::{Answers, Truth, errors};
+use crate::args::BackendChoice;
 use crate::engine::Machine;
 use crate::graph_choice;
-use crate::job::Job;
 use crate::record::WGPU_VERSION;
 use crate::report::Bar;
 use crate::stretch::Frame;
 use crate::trial::Trial;
 use shadowgraph_charts::model::{NodeCost, Point, Provenance};
-use shadowgraph_core::array::Array;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::plan::{Backend, Plan};
@@ -30,9 +30,6 @@ const SHORT_MILLIS: f64 = 5.0;
 const MOST_MILLIS: f64 = 10_000.0;
 /// What a median and a spread need at least.
 const FEWEST_ROUNDS: usize = 3;
-
-/// Most light samples of one set.
-const MOST_OF_SET: u32 = 4096;
 
 /// How to run a suite.
 pub struct How<'a> {
@@ -328,138 +325,6 @@ fn case<'a>(
     };
     point.id = number.hex();
     Case { variant, machine: machine.as_ref().ok(), backend, point, plan }
-}
-
-/// The scene with so many light samples, loaded once each.
-struct Jobs<'a> {
-    scene: &'a SceneEntry,
-    jobs: HashMap<u32, Result<Job, Problem>>,
-    numbers: HashMap<u32, Number>,
-}
-
-impl<'a> Jobs<'a> {
-    fn new(scene: &'a SceneEntry) -> Self {
-        Self { scene, jobs: HashMap::new(), numbers: HashMap::new() }
-    }
-
-    fn get(&mut self, light_samples: u32) -> Result<Job, Problems> {
-        let load = || {
-            let mut choice = self.scene.choice.clone();
-            choice.light.light_samples = Some(light_samples);
-            Job::load(&choice)
-        };
-        Ok(self.jobs.entry(light_samples).or_insert_with(load).clone()?)
-    }
-
-    /// A number of everything that graphs read.
-    fn number(&mut self, light_samples: u32, job: &Job) -> Number {
-        let number = || {
-            let mut number = Number::default();
-            for (name, array) in job.inputs() {
-                number.text(&name);
-                number.array(&array);
-            }
-            number
-        };
-        *self.numbers.entry(light_samples).or_insert_with(number)
-    }
-}
-
-/// Truths about a scene's view-samples by number of light samples, and the view-samples themselves.
-#[derive(Default)]
-struct Truths {
-    view_samples: Option<Vec<(String, Array)>>,
-    answers: HashMap<u32, Answers>,
-}
-
-impl Truths {
-    fn view_samples(&mut self, jobs: &mut Jobs, how: &How) -> Result<Vec<(String, Array)>, Problems> {
-        if let Some(known) = &self.view_samples {
-            return Ok(known.clone());
-        }
-        let job = jobs.get(1)?;
-        let plan = truth_plan(&job, how)?;
-        let machine = Machine::new(BackendChoice::Cpu)?;
-        let made = view_samples(&machine, &plan, &job, &|_, _, _| {})?;
-        self.view_samples = Some(made.clone());
-        Ok(made)
-    }
-
-    /// What visible fractions and pictures are compared with. A light without extent needs one sample; one set of samples is asked
-    /// with exact predicates; more are the mean over disjoint sets by `soft_shafts`, which is exact for each sample too, and much faster.
-    fn reference(&mut self, light_samples: u32, jobs: &mut Jobs, how: &How) -> Result<Answers, Problems> {
-        let set = light_samples.min(MOST_OF_SET);
-        if jobs.get(set)?.light.radius == 0.0 {
-            return self.about(1, jobs, how);
-        }
-        if light_samples <= MOST_OF_SET {
-            return self.about(light_samples, jobs, how);
-        }
-        if let Some(known) = self.answers.get(&light_samples) {
-            return Ok(known.clone());
-        }
-        let job = jobs.get(MOST_OF_SET)?.importing(self.view_samples(jobs, how)?);
-        let choice = GraphChoice { graph: "soft_shafts".into(), ..GraphChoice::default() };
-        let keep = Keep::AllLivePorts;
-        let plan = graph_choice::plan(&choice, how.catalogue, Some(&job.facts), Backend::Cpu, keep)?;
-        let progress = |node: &str, done, total| how.bar.set(&format!("reference, {node}"), done, total);
-        let sets = (light_samples / MOST_OF_SET) as usize;
-        let outcome = converged(&Machine::new(BackendChoice::Cpu)?, &plan, &job, sets, &progress)?;
-        let mut answers = Answers::of(&plan, &outcome, &job)?;
-        answers.light_samples = light_samples as usize;
-        self.answers.insert(light_samples, answers.clone());
-        Ok(answers)
-    }
-
-    fn about(&mut self, light_samples: u32, jobs: &mut Jobs, how: &How) -> Result<Answers, Problems> {
-        if let Some(known) = self.answers.get(&light_samples) {
-            return Ok(known.clone());
-        }
-        let job = jobs.get(light_samples)?.importing(self.view_samples(jobs, how)?);
-        let plan = truth_plan(&job, how)?;
-        let progress =
-            |_: &str, done, total| how.bar.set(&format!("truth of {light_samples} light samples"), done, total);
-        let outcome = Machine::new(BackendChoice::Cpu)?.run(&plan, &job, 1, &progress)?;
-        let answers = Answers::of(&plan, &outcome, &job)?;
-        self.answers.insert(light_samples, answers.clone());
-        Ok(answers)
-    }
-}
-
-fn truth_plan(job: &Job, how: &How) -> Result<Plan, Problems> {
-    let graph = if job.light_samples_count() == 1 { "truth_hard" } else { "truth_soft" };
-    let choice = GraphChoice { graph: graph.into(), ..GraphChoice::default() };
-    graph_choice::plan(&choice, how.catalogue, Some(&job.facts), Backend::Cpu, Keep::AllLivePorts)
-}
-
-/// 64-bit FNV-1a.
-#[derive(Clone, Copy)]
-struct Number(u64);
-
-impl Default for Number {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Number {
-    fn word(&mut self, word: u32) {
-        self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29);
-    }
-
-    fn text(&mut self, text: &str) {
-        self.word(text.len() as u32);
-        text.bytes().for_each(|byte| self.word(u32::from(byte)));
-    }
-
-    fn array(&mut self, array: &Array) {
-        array.shape().iter().for_each(|side| self.word(*side as u32));
-        array.words().iter().for_each(|word| self.word(*word));
-    }
-
-    fn hex(self) -> String {
-        format!("{:016x}", self.0)
-    }
 }
 
 #[cfg(test)]

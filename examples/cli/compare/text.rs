@@ -76,9 +76,12 @@ pub fn figure(value: Option<f64>) -> String {
     }
 }
 
+/// One of the errors.
+type Figure = fn(&Errors) -> Option<f64>;
+
 fn errors_text(errors: &[Errors; 2]) -> String {
     let mut rows = table(&["error against the truth", "A", "B"]);
-    let figures: [(&str, fn(&Errors) -> Option<f64>); 11] = [
+    let figures: [(&str, Figure); 11] = [
         ("wrong bits, share", |errors| errors.wrong_bit_share),
         ("light leak, share", |errors| errors.light_leak_share),
         ("shadow leak, share", |errors| errors.shadow_leak_share),

@@ -57,7 +57,12 @@ pub fn time<'t>(
     settings: Settings,
     told: &dyn Fn(u64, u64),
 ) -> Result<Timing, Problem> {
-    let once = [a.frame(false)?.millis, b.frame(false)?.millis];
+    let once = |trial: &mut Trial| {
+        let millis = trial.frame(false).map(|frame| frame.millis);
+        trial.forget();
+        millis
+    };
+    let once = [once(a)?, once(b)?];
     let shortest = once[0].min(once[1]).max(1e-3);
     let frames_count = ((SHORTEST_MILLIS / shortest).ceil() as usize).clamp(1, MOST_FRAMES);
     let is_warmed = once[0].max(once[1]) < WARMED_MILLIS;
@@ -80,6 +85,7 @@ pub fn time<'t>(
             for _ in 0..frames_count {
                 frames.push(trial.frame(false)?);
             }
+            trial.forget();
             millis[place] = (frames.iter().map(|frame| frame.millis).sum::<f64>() / frames_count as f64).max(1e-6);
             if free {
                 nodes.add(order, place, trial, &frames);
@@ -104,6 +110,7 @@ pub fn time<'t>(
                     Side::B => &mut *b,
                 };
                 let frame = trial.frame(true)?;
+                trial.forget();
                 millis[place] = frame.millis.max(1e-6);
                 clock = frame
                     .nodes
@@ -125,11 +132,14 @@ pub fn time<'t>(
     Ok(Timing { frame, stop, frames_count, nodes: nodes.finish(&settings)?, nodes_clock: clock })
 }
 
+/// A block of one node: who ran when, and its times where it ran.
+type NodeBlock = ([Side; 4], [Option<f64>; 4]);
+
 /// Times of nodes by block, in the order that nodes run.
 #[derive(Default)]
 struct Nodes {
     order: Vec<String>,
-    blocks: HashMap<String, Vec<([Side; 4], [Option<f64>; 4])>>,
+    blocks: HashMap<String, Vec<NodeBlock>>,
 }
 
 impl Nodes {
