@@ -9,6 +9,7 @@ mod chart_runs;
 mod closed_form;
 mod compare;
 mod contamination;
+mod counters;
 mod device_raster;
 mod docs;
 mod frames;
@@ -20,6 +21,7 @@ mod planted;
 mod program;
 mod ranges;
 mod shading;
+mod stability;
 mod suggest;
 mod suite;
 mod suites;
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
     trials.extend(pairs::trials());
     trials.extend(area_lights::trials());
     trials.extend(contamination::trials());
+    trials.extend(counters::trials());
     trials.extend(ranges::trials());
     trials.extend(device_raster::trials());
     trials.extend(truth::trials());
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
     trials.extend(chart_points::trials());
     trials.extend(suggest::trials());
     trials.extend(help::trials());
+    trials.extend(stability::trials());
     trials.extend(program::trials());
     libtest_mimic::run(&arguments, trials).exit_code()
 }

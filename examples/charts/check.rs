@@ -78,9 +78,11 @@ impl Record for Stability {
             let name = |field: &str| format!("frames[{index}].{field}");
             within(&name("value"), Some(frame.value), [-f64::MAX, f64::MAX])?;
             within(&name("wrong_bit_share"), frame.wrong_bit_share, [0.0, 1.0])?;
+            within(&name("wrong_outside_share"), frame.wrong_outside_share, [0.0, 1.0])?;
             within(&name("light_leak_share"), frame.light_leak_share, [0.0, 1.0])?;
             within(&name("shadow_leak_share"), frame.shadow_leak_share, [0.0, 1.0])?;
             within(&name("rmse_penumbra"), frame.rmse_penumbra, [0.0, GREY])?;
+            within(&name("rmse_all"), frame.rmse_all, [0.0, GREY])?;
             within(&name("millis"), frame.millis, [0.0, f64::MAX])?;
         }
         let temporal = self.temporal.unwrap_or_default();

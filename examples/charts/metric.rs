@@ -132,7 +132,13 @@ impl FrameFigure {
 /// Every figure of a frame, in the order of selectors.
 pub static FRAME_FIGURES: &[FrameFigure] = &[
     FrameFigure { name: "wrong_bit_share", title: "wrong bits", of: |frame| frame.wrong_bit_share },
+    FrameFigure {
+        name: "wrong_outside_share",
+        title: "wrong bits outside the contact band",
+        of: |frame| frame.wrong_outside_share,
+    },
     FrameFigure { name: "rmse_penumbra", title: "RMSE over true penumbra", of: |frame| frame.rmse_penumbra },
+    FrameFigure { name: "rmse_all", title: "RMSE over all view-samples", of: |frame| frame.rmse_all },
     FrameFigure { name: "light_leak_share", title: "light leak", of: |frame| frame.light_leak_share },
     FrameFigure { name: "shadow_leak_share", title: "shadow leak", of: |frame| frame.shadow_leak_share },
     FrameFigure { name: "millis", title: "milliseconds a frame", of: |frame| frame.millis },

@@ -279,12 +279,16 @@ pub struct StabilityFrame {
     pub value: f64,
     /// As in [`Errors::wrong_bit_share`].
     pub wrong_bit_share: Option<f64>,
+    /// The same without the contact band: view-samples so close to a decisive plane that rounding of their position decides.
+    pub wrong_outside_share: Option<f64>,
     /// As in [`Errors::light_leak_share`].
     pub light_leak_share: Option<f64>,
     /// As in [`Errors::shadow_leak_share`].
     pub shadow_leak_share: Option<f64>,
     /// As in [`Errors::rmse_penumbra`].
     pub rmse_penumbra: Option<f64>,
+    /// As in [`Errors::rmse_all`].
+    pub rmse_all: Option<f64>,
     /// The whole frame, milliseconds.
     pub millis: Option<f64>,
     /// Entries of the longest list of any cell.

@@ -324,9 +324,11 @@ fn stability(case: &Case, method: &Method) -> Stability {
         StabilityFrame {
             value,
             wrong_bit_share: method.has_mask.then_some(error * 0.3),
+            wrong_outside_share: method.has_mask.then_some(error * 0.3),
             light_leak_share: Some(error * 0.2),
             shadow_leak_share: Some(error * 0.1),
             rmse_penumbra: Some(error),
+            rmse_all: Some(error * 0.4),
             millis: Some(method.millis * wave),
             longest_list_count: method.has_mask.then_some((900.0 * wave) as u64),
         }

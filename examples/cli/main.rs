@@ -2,7 +2,9 @@
 
 use clap::Parser;
 use shadowgraph::args::{Cli, Command};
-use shadowgraph::commands::{chart, check, compare, export, graph, passes, render, scenes, suggest, verify};
+use shadowgraph::commands::{
+    chart, check, compare, export, graph, passes, profile, render, scenes, stability, suggest, verify,
+};
 use shadowgraph_core::problem::Problems;
 use std::io::Write;
 use std::process::ExitCode;
@@ -34,9 +36,11 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
     let threads = match command {
         Command::Render(args) => args.run.threads,
         Command::Verify(args) => args.run.threads,
+        Command::Stability(args) => args.threads,
         Command::Compare(args) => args.threads,
         Command::Chart(args) => args.threads,
         Command::Suggest(args) => args.threads,
+        Command::Profile(args) => args.machine.threads,
         _ => 0,
     };
     // Only fails when a pool exists already, which none does here.
@@ -48,7 +52,9 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
         Command::Chart(args) => (chart::text(&catalogue, args)?, true),
         Command::Suggest(args) => suggest::text(&catalogue, args)?,
         Command::Merge(args) => (chart::merge_text(args)?, true),
-        Command::Check(args) => check::text(&catalogue, args),
+        Command::Profile(args) => (profile::text(&catalogue, args)?, true),
+        Command::Check(args) => check::text(&catalogue, args)?,
+        Command::Stability(args) => stability::text(&catalogue, args)?,
         Command::Graph(args) => (graph::text(&catalogue, args)?, true),
         Command::Passes(args) => (passes::text(&catalogue, args)?, true),
         Command::Scenes(args) => (scenes::text(args)?, true),

@@ -15,10 +15,12 @@ pub mod place;
 mod random;
 pub mod soup;
 pub mod topology;
+pub mod vary;
 pub mod views;
 
-pub use place::{View, choose_from, choose_view, load, view_names};
+pub use place::{View, choose_from, choose_view, load, load_soup, view_names};
 pub use topology::{open_all_parts, open_parts_around};
+pub use vary::Variation;
 pub use views::Views;
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! From what stands on a command line to a scene and a view of it.
 
 use crate::nearest::nearest;
+use crate::soup::Soup;
 use crate::views::Views;
 use crate::{builtin, gltf};
 use glam::{Vec3, vec3};
@@ -29,6 +30,14 @@ pub fn load(spec: &str) -> Result<Scene, Problem> {
     match spec.strip_prefix(builtin::PREFIX) {
         Some(rest) => builtin::build(rest),
         None => gltf::load(Path::new(spec)),
+    }
+}
+
+/// The same before it is finished, for [`crate::Variation`].
+pub fn load_soup(spec: &str) -> Result<Soup, Problem> {
+    match spec.strip_prefix(builtin::PREFIX) {
+        Some(rest) => builtin::soup(rest),
+        None => gltf::load_soup(Path::new(spec)),
     }
 }
 

@@ -5,9 +5,11 @@ mod check;
 mod compare;
 mod graph;
 mod listings;
+mod profile;
 mod render;
 mod run;
 mod scene;
+mod stability;
 mod suggest;
 mod verify;
 
@@ -16,9 +18,11 @@ pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use graph::{GraphArgs, GraphChoice};
 pub use listings::{ExportArgs, PassesArgs, ScenesArgs};
+pub use profile::ProfileArgs;
 pub use render::RenderArgs;
-pub use run::{BackendChoice, RunChoice};
+pub use run::{BackendChoice, MachineChoice, RunChoice};
 pub use scene::{GeneratorChoice, LightChoice, SceneChoice, ShapeChoice};
+pub use stability::StabilityArgs;
 pub use suggest::SuggestArgs;
 pub use verify::VerifyArgs;
 
@@ -37,7 +41,9 @@ const EXAMPLES: &str = "Examples:
   shadowgraph render hard --scene builtin:columns --out out
   shadowgraph render hard --scene scene.glb --views views.json --view overview --swap visibility=fused
   shadowgraph verify hard --scene builtin:contact --backend wgpu
+  shadowgraph profile hard --backend wgpu --trace trace.json
   shadowgraph check my_graph.ron
+  shadowgraph check --invariance hard --scene builtin:columns
   shadowgraph graph hard --svg > hard.svg
   shadowgraph passes visibility";
 
@@ -56,7 +62,11 @@ pub enum Command {
     Suggest(SuggestArgs),
     /// Make one folder of the parts of a sharded chart run
     Merge(MergeArgs),
-    /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU
+    /// Time each node of a graph, within whole frames and alone, with what it counted, its memory, and how far the clocks can be trusted
+    Profile(ProfileArgs),
+    /// Run methods along sequences over failure scenes, and report where each holds and where it breaks
+    Stability(StabilityArgs),
+    /// Check graph files: every mistake at once, with its place; needs neither a scene nor a GPU. With --invariance: run them, and require the same values whatever must not matter
     Check(CheckArgs),
     /// Print a graph: its plan, or a drawing
     Graph(GraphArgs),

@@ -37,6 +37,18 @@ pub struct SceneChoice {
 }
 
 impl SceneChoice {
+    /// A scene at a size with its own view, and with the same kind of light samples as `light`: nothing else is overridden.
+    pub fn plain(scene: &str, size: &str, light: &LightChoice) -> Self {
+        let light = LightChoice {
+            generator: light.generator,
+            light_seed: light.light_seed,
+            jitter_side: light.jitter_side,
+            ..LightChoice::default()
+        };
+        let (scene, size) = (scene.to_string(), size.to_string());
+        Self { scene, views: None, view: None, eye: None, target: None, fov: None, light, size, view_samples: None }
+    }
+
     /// The same choice for a graph that is made for so many light samples.
     pub fn for_graph(&self, light_samples: Option<u32>) -> Self {
         let mut choice = self.clone();

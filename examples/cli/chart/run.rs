@@ -1,7 +1,7 @@
 //! Runs a suite: every variant answers once for the same view-samples and is judged, then all variants of a scene are timed in
 //! rounds, so that what slows the machine for a while slows all of them.
 
-use super::inputs::{Jobs, Truths};
+use super::inputs::{Jobs, MOST_OF_SET, Truths};
 use super::number::Number;
 use super::pictures;
 use super::store::{Round, Store};
@@ -239,8 +239,7 @@ fn answer(
     how: &How,
 ) -> Result<(Answers, Truth), Problems> {
     let samples = case.variant.light_samples;
-    let reference = if jobs.get(suite.reference)?.light.radius > 0.0 { suite.reference } else { 1 };
-    let grey = truths.about(reference, jobs, how)?;
+    let grey = truths.reference(suite.reference, jobs, how)?;
     let bits = truths.about(samples, jobs, how)?;
     let job = jobs.get(samples)?.importing(truths.view_samples(jobs, how)?);
     let keep = Keep::AllLivePorts;
@@ -280,7 +279,7 @@ fn case<'a>(
     };
     let planned = jobs.get(variant.light_samples).and_then(|job| {
         // What a light is shows only when it has more than one sample; without extent, they all are one.
-        let light = jobs.get(suite.reference)?;
+        let light = jobs.get(suite.reference.min(MOST_OF_SET))?;
         let is_point = light.facts.light_is_point || !shadowgraph_scenes::lights::has_extent(&light.light);
         let facts = Facts { light_is_point: is_point, ..light.facts };
         if let Some(why) = variant.ruled_out(&facts) {

@@ -6,7 +6,7 @@
 //!     name: "overview",
 //!     size: "256x256",             // default 256x256
 //!     backends: [cpu],             // default: what --backend says
-//!     reference: 1024,             // light samples of the truth that visible fractions are compared with; default 1024
+//!     reference: 65536,            // light samples that visible fractions are compared with, above 4096 in sets; default 1024
 //!     rounds: 7,                   // timed rounds of each variant; default 7
 //!     scenes: [
 //!         (name: "columns", scene: "builtin:columns", options: ["--light-radius", "0.5"]),
@@ -132,7 +132,11 @@ fn suite(tree: &Tree, reader: &mut Reader, scenes_folder: Option<&Path>) -> Opti
         Some(value) => reader.whole(value, field, range).unwrap_or(default),
         None => default,
     };
-    let reference = whole(reader, "reference", 1..=4096, 1024);
+    let reference = whole(reader, "reference", 1..=1 << 20, 1024);
+    if let Some(value) = value(&fields, "reference").filter(|_| reference > 4096 && reference % 4096 > 0) {
+        let problem = Problem::new(Kind::BadValue, "light samples above 4096 come in sets of 4096");
+        reader.problem(value.span, problem.expected("a multiple of 4096").found(reference.to_string()));
+    }
     let rounds = whole(reader, "rounds", 1..=1000, 7);
     let backends = backends_of(&fields, reader);
     let mut scenes: Vec<SceneEntry> = Vec::new();

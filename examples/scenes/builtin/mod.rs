@@ -91,8 +91,13 @@ const LIST: &[Builtin] = &[
 
 /// Builds `NAME?param=value&..`.
 pub fn build(text: &str) -> Result<Scene, Problem> {
+    Ok(soup(text)?.finish(&format!("{PREFIX}{text}")))
+}
+
+/// The same before it is finished.
+pub fn soup(text: &str) -> Result<Soup, Problem> {
     let (scene, params) = spec::parse(text)?;
-    Ok((scene.build)(&params).finish(&format!("{PREFIX}{text}")))
+    Ok((scene.build)(&params))
 }
 
 /// Light and casters of `NAME?param=value&..`, if its soft shadow on the ground has a closed form.

@@ -36,6 +36,12 @@ use std::path::Path;
 
 /// Loads a file; buffers of their own are read from its folder.
 pub fn load(path: &Path) -> Result<Scene, Problem> {
+    let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    Ok(load_soup(path)?.finish(&name))
+}
+
+/// The same before it is finished.
+pub fn load_soup(path: &Path) -> Result<Soup, Problem> {
     let source =
         Source { name: path.display().to_string(), folder: Some(path.parent().unwrap_or(Path::new("")).to_owned()) };
     let unreadable = |error: std::io::Error| {
@@ -50,16 +56,15 @@ pub fn load(path: &Path) -> Result<Scene, Problem> {
             .expected(format!("a plain file of at most {} bytes", limits::BYTES)));
     }
     let bytes = std::fs::read(path).map_err(unreadable)?;
-    let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    from_source(&source, &name, &bytes)
+    from_source(&source, &bytes)
 }
 
 /// Loads a file that is in memory already. Buffers in files of their own are refused.
 pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Scene, Problem> {
-    from_source(&Source { name: name.into(), folder: None }, name, bytes)
+    Ok(from_source(&Source { name: name.into(), folder: None }, bytes)?.finish(name))
 }
 
-fn from_source(source: &Source, name: &str, bytes: &[u8]) -> Result<Scene, Problem> {
+fn from_source(source: &Source, bytes: &[u8]) -> Result<Soup, Problem> {
     let container = container::split(source, bytes)?;
     let root = document::parse(source, container.json)?;
     let buffers = buffers::load(source, &root, container.bin)?;
@@ -92,7 +97,7 @@ fn from_source(source: &Source, name: &str, bytes: &[u8]) -> Result<Scene, Probl
     if root.extensions_used.iter().any(|name| name == "EXT_mesh_gpu_instancing") {
         soup.notes.push("EXT_mesh_gpu_instancing is not built: its instances are left out".into());
     }
-    Ok(soup.finish(name))
+    Ok(soup)
 }
 
 /// How far to go with a mesh.

@@ -38,9 +38,12 @@ mod divide;
 mod groups;
 mod leaf;
 mod neighbours;
+mod order;
 mod own;
 mod patches;
+mod rays;
 mod shaft;
+mod splits;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -89,12 +92,20 @@ pub static PASS: Pass = Pass {
         "bvh_nodes",
         "bvh_order",
     ],
-    params: &[ParamSpec {
-        name: "patches",
-        range: Range::Word { words: &["auto", "always", "off"], default: "auto" },
-        unit: "",
-        doc: "when joined casters of one facing are decided together; auto: while it pays; never changes the mask",
-    }],
+    params: &[
+        ParamSpec {
+            name: "patches",
+            range: Range::Word { words: &["auto", "always", "off"], default: "auto" },
+            unit: "",
+            doc: "when joined casters of one facing are decided together; auto: while it pays; never changes the mask",
+        },
+        ParamSpec {
+            name: "leaves",
+            range: Range::Word { words: &["auto", "triangles", "rays"], default: "auto" },
+            unit: "",
+            doc: "how sixteen view-samples are decided: caster by caster, or ray packet by ray packet; auto: by estimated cost; never changes the mask",
+        },
+    ],
     counters: &[
         info("shafts", "shafts looked at"),
         info("lit_shafts", "shafts found to hold no caster"),
@@ -102,6 +113,8 @@ pub static PASS: Pass = Pass {
         info("patch_shafts", "shafts found to be blocked by one patch"),
         info("met", "(caster, shaft) pairs looked at"),
         info("tested", "(caster, 16 view-samples, 16 light samples) tested segment by segment"),
+        info("ray_shafts", "shafts of sixteen view-samples left to ray packets"),
+        info("cast", "(caster, view-sample, 16 light samples) tested segment by segment"),
         info("exact", "(segment, caster) pairs that only exact arithmetic could decide"),
     ],
     contract: Contract::Exact,

@@ -6,9 +6,10 @@
 
 use super::candidates::Candidates;
 use super::groups::{Frame, cross, dot, size};
-use super::shaft::PLANE_ERROR;
-use super::{LANES, MOST_VIEWS};
+use super::shaft::{PLANE_ERROR, dot_one, load};
+use super::{LANES, MOST_VIEWS, lanes_from};
 use crate::shared::predicate::{Corners, side};
+use fearless_simd::{Simd, SimdBase, SimdMask, u32x16};
 use std::collections::HashMap;
 
 /// Planes of a cluster that every caster is held against at once; with more, only where it matters.
@@ -29,8 +30,46 @@ struct Plane {
     up: i32,
     /// All light samples are above for certain.
     lit: bool,
+    /// Where the world's plane is one of equal x, y or z.
+    level: Option<Level>,
     /// Sides of all light samples, exactly; made when first asked for.
     sides: Vec<i8>,
+}
+
+/// A plane `p[axis] = at`: on which side a point is needs a comparison. Floors and walls often are such, and others level with them.
+#[derive(Clone, Copy, Debug)]
+struct Level {
+    axis: usize,
+    at: f32,
+    /// The side beyond: 1, -1, or 0 for a degenerate triangle.
+    beyond: i32,
+}
+
+impl Level {
+    fn of(corners: &Corners) -> Option<Self> {
+        let axis = (0..3).find(|&axis| corners.iter().all(|corner| corner[axis] == corners[0][axis]))?;
+        let at = corners[0][axis];
+        // The side is linear in the distance: one point off the plane tells its sign.
+        let mut off = corners[0];
+        off[axis] = if at > 0.0 { at.next_down() } else { at.next_up() };
+        let beyond = side(corners, off) * if at > 0.0 { -1 } else { 1 };
+        Some(Self { axis, at, beyond })
+    }
+
+    /// As [`side`].
+    fn side(&self, point: [f32; 3]) -> i32 {
+        let x = point[self.axis];
+        self.beyond * (i32::from(x > self.at) - i32::from(x < self.at))
+    }
+}
+
+/// Planes by lanes.
+#[derive(Default)]
+struct Rows {
+    /// Normal, constant, error, size.
+    of: [Vec<f32>; 6],
+    /// The triangle of each.
+    triangle: Vec<u32>,
 }
 
 /// What the planes make of a caster.
@@ -44,6 +83,17 @@ pub enum Verdict {
     Mixed(u32),
     /// Not looked at yet: [`OwnPlanes::judge_each`] tells.
     Open,
+}
+
+/// For how many light samples a view-sample's own triangle lets a caster through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Admits {
+    /// All.
+    All,
+    /// None.
+    None,
+    /// Those that [`OwnPlanes::allowed_lights`] tells.
+    Some,
 }
 
 /// Whether a caster has corners strictly there.
@@ -80,6 +130,15 @@ fn put(set: &mut Set, at: usize) {
     set[at / 64] |= 1 << (at % 64);
 }
 
+/// Sixteen of a set.
+fn part(set: &Set, first: usize) -> u16 {
+    (set[first / 64] >> (first % 64)) as u16
+}
+
+fn put_part(set: &mut Set, first: usize, part: u16) {
+    set[first / 64] |= u64::from(part) << (first % 64);
+}
+
 fn is_within(small: &Set, large: &Set) -> bool {
     (0..small.len()).all(|word| small[word] & !large[word] == 0)
 }
@@ -88,6 +147,10 @@ fn is_within(small: &Set, large: &Set) -> bool {
 #[derive(Default)]
 pub struct OwnPlanes {
     planes: Vec<Plane>,
+    by_lanes: Rows,
+    /// Planes that all light samples are above of for certain, and those that are certain.
+    all_lit: Set,
+    all_certain: Set,
     /// Plane of each view-sample, by place; `NONE` when it lies on no triangle.
     of_view: Vec<u16>,
     rows: Vec<Row>,
@@ -150,6 +213,7 @@ impl OwnPlanes {
             }
             self.of_view.push(last.1);
         }
+        self.fill_lanes();
         self.complete = !self.of_view.contains(&NONE);
         self.certain = self.planes.iter().all(|plane| plane.normal != [0.0; 3]);
         self.lit = self.planes.iter().all(|plane| plane.lit);
@@ -166,14 +230,41 @@ impl OwnPlanes {
         }
     }
 
+    fn fill_lanes(&mut self) {
+        let padded = self.planes.len().next_multiple_of(LANES);
+        for row in &mut self.by_lanes.of {
+            row.clear();
+        }
+        self.by_lanes.triangle.clear();
+        (self.all_lit, self.all_certain) = (Set::default(), Set::default());
+        for (at, plane) in self.planes.iter().enumerate() {
+            let [x, y, z] = plane.normal;
+            for (row, value) in self.by_lanes.of.iter_mut().zip([x, y, z, plane.constant, plane.error, plane.size]) {
+                row.push(value);
+            }
+            self.by_lanes.triangle.push(plane.triangle);
+            if plane.lit {
+                put(&mut self.all_lit, at);
+            }
+            if plane.normal != [0.0; 3] {
+                put(&mut self.all_certain, at);
+            }
+        }
+        for row in &mut self.by_lanes.of {
+            row.resize(padded, 0.0);
+        }
+        self.by_lanes.triangle.resize(padded, u32::MAX);
+    }
+
     /// What they make of the caster at `place` of `list`, which is triangle `id`, as far as it is told soon.
-    pub fn judge(&mut self, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
+    #[inline(always)]
+    pub fn judge<S: Simd>(&mut self, simd: S, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
         if self.planes.is_empty() {
             return Verdict::Plain;
         }
         let (corners, reach) = corners_of(list, place);
         if self.certain {
-            let heights = corners.map(|corner| dot(self.mean, corner));
+            let heights = [dot(self.mean, corners[0]), dot(self.mean, corners[1]), dot(self.mean, corners[2])];
             let (low, high) = (heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2]));
             let room = self.spread * reach + self.error * (reach + self.size);
             let above = high - room + self.constant[0] > 0.0;
@@ -185,34 +276,38 @@ impl OwnPlanes {
                 return Verdict::Never;
             }
         }
-        if self.planes.len() <= SOON { self.judge_each(world, list, place, id) } else { Verdict::Open }
+        if self.planes.len() <= SOON { self.judge_each(simd, world, list, place, id) } else { Verdict::Open }
     }
 
-    /// The same, plane by plane.
-    pub fn judge_each(&mut self, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
+    /// The same, sixteen planes at once.
+    #[inline(always)]
+    pub fn judge_each<S: Simd>(&mut self, simd: S, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
         let (corners, reach) = corners_of(list, place);
         let mut row = Row::default();
         let (mut plain, mut never) = (true, self.complete);
-        for (at, plane) in self.planes.iter().enumerate() {
-            let is_mine = plane.triangle == id;
-            let bits = if is_mine { 0 } else { plane.corners(world, &mut self.known, &corners, reach, id) };
-            let (above, below) = (bits & ABOVE != 0, bits & BELOW != 0);
-            if above {
-                put(&mut row.above, at);
+        for first in (0..self.planes.len()).step_by(LANES) {
+            let lanes = lanes_from(self.planes.len() - first);
+            let seen = self.by_lanes.heights(simd, &corners, reach, id, first);
+            let (lit, certain) = (part(&self.all_lit, first), part(&self.all_certain, first));
+            let (mut above, mut below) = (seen.above & !seen.mine & lanes, seen.below & !seen.mine & lanes);
+            let told = certain & (above | seen.not_above) & (below | seen.not_below | lit);
+            let mut doubt = lanes & !told & !seen.mine;
+            while doubt != 0 {
+                let lane = doubt.trailing_zeros() as usize;
+                let bit = 1 << lane;
+                doubt ^= bit;
+                let bits = self.planes[first + lane].corners(world, &mut self.known, id);
+                above = if bits & ABOVE != 0 { above | bit } else { above & !bit };
+                below = if bits & BELOW != 0 { below | bit } else { below & !bit };
             }
-            if below {
-                put(&mut row.below, at);
-            }
-            if above && (plane.lit || below) {
-                put(&mut row.plain, at);
-            } else {
-                plain = false;
-            }
-            if is_mine || (plane.lit && !above) {
-                put(&mut row.never, at);
-            } else {
-                never = false;
-            }
+            let lets = above & (lit | below);
+            let holds = (seen.mine | (lit & !above)) & lanes;
+            put_part(&mut row.above, first, above);
+            put_part(&mut row.below, first, below);
+            put_part(&mut row.plain, first, lets);
+            put_part(&mut row.never, first, holds);
+            plain &= lets == lanes;
+            never &= holds & !lets == lanes;
         }
         if plain {
             return Verdict::Plain;
@@ -262,6 +357,35 @@ impl OwnPlanes {
         possible
     }
 
+    /// What view-sample `view` makes of the caster of `row`.
+    #[inline]
+    pub fn admits(&self, row: u32, view: usize) -> Admits {
+        let (at, row) = (self.of_view[view], &self.rows[row as usize]);
+        if at == NONE || has(&row.plain, at) {
+            Admits::All
+        } else if has(&row.never, at) {
+            Admits::None
+        } else {
+            Admits::Some
+        }
+    }
+
+    /// Those of sixteen light samples for which view-sample `view`, which admits some, lets the caster of `row` through.
+    /// `order`: light samples by place.
+    pub fn allowed_lights(&mut self, world: &World, row: u32, view: usize, order: &[u32]) -> u16 {
+        let (at, row) = (self.of_view[view], &self.rows[row as usize]);
+        let (above, below) = (has(&row.above, at), has(&row.below, at));
+        let sides = self.planes[usize::from(at)].sides(world);
+        order.iter().enumerate().fold(0, |allowed, (lane, light)| {
+            let admits = match sides[*light as usize] {
+                0 => true,
+                1 => above,
+                _ => below,
+            };
+            allowed | u16::from(admits) << lane
+        })
+    }
+
     /// For each of sixteen light samples, a bit for each of sixteen view-samples that lets the caster of `row` through.
     /// `views`: first place; `order`: light samples by place.
     pub fn allowed(&mut self, world: &World, row: u32, views: usize, order: &[u32]) -> [u16; LANES] {
@@ -302,6 +426,46 @@ fn corners_of(list: &Candidates, place: usize) -> ([[f32; 3]; 3], f32) {
     ([a, [0, 1, 2].map(|k| a[k] + g[k]), [0, 1, 2].map(|k| a[k] + h[k])], size(a) + size(g) + size(h))
 }
 
+/// What sixteen planes see of a caster's corners for certain, a bit each.
+struct Seen {
+    /// One above.
+    above: u16,
+    /// One below.
+    below: u16,
+    /// All below.
+    not_above: u16,
+    /// All above.
+    not_below: u16,
+    /// It is the plane's own triangle.
+    mine: u16,
+}
+
+impl Rows {
+    /// Planes `first..first + 16`.
+    #[inline(always)]
+    fn heights<S: Simd>(&self, simd: S, corners: &[[f32; 3]; 3], reach: f32, id: u32, first: usize) -> Seen {
+        let [x, y, z, constant, error, size] = &self.of;
+        let normal = [load(simd, x, first), load(simd, y, first), load(simd, z, first)];
+        let constant = load(simd, constant, first);
+        let room = load(simd, error, first) * (load(simd, size, first) + reach);
+        let heights = [
+            dot_one(corners[0], normal) + constant,
+            dot_one(corners[1], normal) + constant,
+            dot_one(corners[2], normal) + constant,
+        ];
+        let low = heights[0].min(heights[1]).min(heights[2]);
+        let high = heights[0].max(heights[1]).max(heights[2]);
+        let triangles = u32x16::from_slice(simd, &self.triangle[first..first + LANES]);
+        Seen {
+            above: high.simd_gt(room).to_bitmask() as u16,
+            below: (low + room).simd_lt(0.0).to_bitmask() as u16,
+            not_above: (high + room).simd_lt(0.0).to_bitmask() as u16,
+            not_below: low.simd_gt(room).to_bitmask() as u16,
+            mine: triangles.simd_eq(id).to_bitmask() as u16,
+        }
+    }
+}
+
 impl Plane {
     fn new(triangle: u32, corners: &Corners, world: &World, frame: &Frame, light: ([f32; 3], [f32; 3])) -> Self {
         let units = corners.map(|p| world.unit(p));
@@ -318,6 +482,7 @@ impl Plane {
             size: size(origin) + size(g) + size(h),
             up: 1,
             lit: false,
+            level: Level::of(corners),
             sides: Vec::new(),
         };
         if !(share < 1e4 && length > 1e-30) {
@@ -337,35 +502,32 @@ impl Plane {
         plane
     }
 
-    /// Which sides of the plane the caster has corners on.
-    fn corners(&self, world: &World, known: &mut HashMap<u64, u8>, corners: &[[f32; 3]; 3], reach: f32, id: u32) -> u8 {
-        if self.normal != [0.0; 3] {
-            let heights = corners.map(|corner| dot(self.normal, corner) + self.constant);
-            let room = self.error * (reach + self.size);
-            let (above, below) = (heights.iter().any(|x| *x > room), heights.iter().any(|x| *x < -room));
-            let (not_above, not_below) = (heights.iter().all(|x| *x < -room), heights.iter().all(|x| *x > room));
-            if (above || not_above) && (below || not_below || self.lit) {
-                return if above { ABOVE } else { 0 } | if below { BELOW } else { 0 };
-            }
-        }
-        let key = u64::from(self.triangle) << 32 | u64::from(id);
-        let (up, down) = if let Some(known) = known.get(&key) {
-            (known & ABOVE, known & BELOW)
-        } else {
-            if known.len() >= MOST_KNOWN {
-                known.clear();
-            }
-            let own = &world.triangles[self.triangle as usize];
-            let sides =
-                world.triangles[id as usize].map(|corner| if own.contains(&corner) { 0 } else { side(own, corner) });
-            let bits = sides.iter().fold(0, |bits, side| match side {
+    /// Which sides of the plane the caster has corners on, exactly.
+    fn corners(&self, world: &World, known: &mut HashMap<u64, u8>, id: u32) -> u8 {
+        let sides_of = |side: &dyn Fn([f32; 3]) -> i32| {
+            world.triangles[id as usize].iter().fold(0, |bits, corner| match side(*corner) {
                 1 => bits | ABOVE,
                 -1 => bits | BELOW,
                 _ => bits,
-            });
-            known.insert(key, bits);
-            (bits & ABOVE, bits & BELOW)
+            })
         };
+        let bits = if let Some(level) = self.level {
+            sides_of(&|corner| level.side(corner))
+        } else {
+            let key = u64::from(self.triangle) << 32 | u64::from(id);
+            if let Some(bits) = known.get(&key) {
+                *bits
+            } else {
+                if known.len() >= MOST_KNOWN {
+                    known.clear();
+                }
+                let own = &world.triangles[self.triangle as usize];
+                let bits = sides_of(&|corner| if own.contains(&corner) { 0 } else { side(own, corner) });
+                known.insert(key, bits);
+                bits
+            }
+        };
+        let (up, down) = (bits & ABOVE, bits & BELOW);
         // What is known is about the plane as the predicate turns it.
         if self.up > 0 { up | down } else { (up << 1) | (down >> 1) }
     }
@@ -374,7 +536,9 @@ impl Plane {
     fn sides(&mut self, world: &World) -> &[i8] {
         if self.sides.is_empty() {
             let own = &world.triangles[self.triangle as usize];
-            self.sides.extend(world.lights.iter().map(|light| (side(own, *light) * self.up) as i8));
+            let (level, up) = (self.level, self.up);
+            let side_of = |light: [f32; 3]| level.map_or_else(|| side(own, light), |level| level.side(light));
+            self.sides.extend(world.lights.iter().map(|light| (side_of(*light) * up) as i8));
         }
         &self.sides
     }

@@ -1,5 +1,6 @@
 use super::cpu::{Receivers, answer};
 use super::patches::Choice;
+use super::rays::Leaves;
 use crate::shared::predicate::{Corners, blocks};
 use fearless_simd::Level;
 use shadowgraph_core::shared::{BACKGROUND, FACING_AWAY, KEPT, NO_TRIANGLE};
@@ -102,17 +103,25 @@ fn compare(
         sample_state: &sample_state,
         image: [width, rows.len().div_ceil(width.max(1))],
         patches: Choice::Auto,
+        leaves: Leaves::Auto,
     };
     let expected = brute_force(scene);
-    for (level, patches) in [
-        (Level::new(), Choice::Always),
-        (Level::new(), Choice::Off),
-        (Level::new(), Choice::Auto),
-        (Level::baseline(), Choice::Always),
+    for (level, patches, leaves) in [
+        (Level::new(), Choice::Always, Leaves::Triangles),
+        (Level::new(), Choice::Off, Leaves::Triangles),
+        (Level::new(), Choice::Off, Leaves::Rays),
+        (Level::new(), Choice::Auto, Leaves::Auto),
+        (Level::baseline(), Choice::Always, Leaves::Triangles),
+        (Level::baseline(), Choice::Auto, Leaves::Rays),
     ] {
-        let (found, _) = answer(Receivers { patches, ..scene }, level, &|_, _| {});
+        let (found, _) = answer(Receivers { patches, leaves, ..scene }, level, &|_, _| {});
         let wrong = expected.iter().zip(&found).map(|(a, b)| (a ^ b).count_ones()).sum::<u32>();
-        assert_eq!(wrong, 0, "{what}, {level:?}, patches {patches:?}: {} bits in all", expected.len() * 32);
+        assert_eq!(
+            wrong,
+            0,
+            "{what}, {level:?}, patches {patches:?}, leaves {leaves:?}: {} bits in all",
+            expected.len() * 32
+        );
     }
     let words = light_samples.len().div_ceil(32);
     let kept = expected.chunks(words).zip(&sample_state).filter(|(_, state)| **state == KEPT);
@@ -329,6 +338,7 @@ fn nothing_that_casts_nothing_kept_and_no_light_sample() {
         sample_state: &[KEPT, KEPT],
         image: [2, 1],
         patches: Choice::Auto,
+        leaves: Leaves::Auto,
     };
     let masks = |scene: Receivers| answer(scene, Level::new(), &|_, _| {}).0;
     assert_eq!(masks(scene), [0, 0]);
@@ -356,6 +366,7 @@ fn many_equal_triangles_build_in_time_and_agree() {
         sample_state: &[KEPT, KEPT],
         image: [2, 1],
         patches: Choice::Auto,
+        leaves: Leaves::Auto,
     };
     assert_eq!(answer(scene, Level::new(), &|_, _| {}).0, [1, 0]);
 }
