@@ -54,10 +54,21 @@ pub struct Counter {
 pub enum CounterKind {
     /// Information.
     Info,
+    /// Information that the CPU function alone keeps: on a GPU it would cost.
+    OnCpu,
+    /// The largest of something: over several runs the largest counts, not the sum.
+    Most,
     /// Rows of this output port that were needed; more than its capacity is an overflow, and the run can be grown.
     Rows(&'static str),
     /// Must be zero; anything else is an error with this remedy.
     MustBeZero(&'static str),
+}
+
+impl CounterKind {
+    /// What two runs over different parts counted together.
+    pub fn joined(self, one: u64, other: u64) -> u64 {
+        if self == Self::Most { one.max(other) } else { one + other }
+    }
 }
 
 /// One way to do a stage.

@@ -1,7 +1,7 @@
 //! What several test modules start from: scenes, jobs and graphs by their command-line names.
 
 use clap::Parser;
-use shadowgraph::args::{Cli, Command, RenderArgs, VerifyArgs};
+use shadowgraph::args::{ChartArgs, Cli, Command, CompareArgs, MergeArgs, RenderArgs, SuggestArgs, VerifyArgs};
 use shadowgraph::job::Job;
 
 /// `render` as its command line would be understood.
@@ -16,6 +16,38 @@ pub fn render_args(words: &[&str]) -> RenderArgs {
 pub fn verify_args(words: &[&str]) -> VerifyArgs {
     match Cli::parse_from(["shadowgraph", "verify"].iter().chain(words)).command {
         Command::Verify(args) => args,
+        other => unreachable!("{other:?}"),
+    }
+}
+
+/// `compare` likewise, without progress bars.
+pub fn compare_args(words: &[&str]) -> CompareArgs {
+    match Cli::parse_from(["shadowgraph", "compare", "-q"].iter().chain(words)).command {
+        Command::Compare(args) => args,
+        other => unreachable!("{other:?}"),
+    }
+}
+
+/// `chart` likewise.
+pub fn chart_args(words: &[&str]) -> ChartArgs {
+    match Cli::parse_from(["shadowgraph", "chart", "-q", "--backend", "cpu"].iter().chain(words)).command {
+        Command::Chart(args) => args,
+        other => unreachable!("{other:?}"),
+    }
+}
+
+/// `merge` likewise.
+pub fn merge_args(words: &[&str]) -> MergeArgs {
+    match Cli::parse_from(["shadowgraph", "merge"].iter().chain(words)).command {
+        Command::Merge(args) => args,
+        other => unreachable!("{other:?}"),
+    }
+}
+
+/// `suggest` likewise.
+pub fn suggest_args(words: &[&str]) -> SuggestArgs {
+    match Cli::parse_from(["shadowgraph", "suggest", "-q", "--backend", "cpu"].iter().chain(words)).command {
+        Command::Suggest(args) => args,
         other => unreachable!("{other:?}"),
     }
 }

@@ -17,8 +17,59 @@ pub fn trials() -> Vec<Trial> {
         Trial::test("program/a_soft_graph_has_its_light_samples_without_flags", light_samples),
         Trial::test("program/the_light_is_what_its_flags_say_in_record_and_dump", light),
         Trial::test("program/light_flags_that_do_not_fit_are_problems", wrong_light),
+        Trial::test("program/profiles_are_tables_json_and_traces", profiles),
+        Trial::test("program/invariance_needs_a_run_and_says_what_it_compared", invariance),
         Trial::test("program/sets_of_light_samples_are_averaged", light_sets),
     ]
+}
+
+/// Checks that run a graph: all the same, in words and as JSON; flags of a run are refused where nothing runs.
+fn invariance() -> Result<(), Failed> {
+    let words = ["check", "--invariance", "hard", "--backend", "cpu", "--size", "24x20", "--frames", "3", "-q"];
+    let output = program(&words)?;
+    succeeded(&output)?;
+    let text = stdout(&output);
+    for word in ["order", "frame 3 against the first", "poison: not applicable", "same"] {
+        assert!(text.contains(word), "no {word} in\n{text}");
+    }
+    let output = program(&[&words[..], &["--json"]].concat())?;
+    succeeded(&output)?;
+    let reports: serde_json::Value = serde_json::from_str(&stdout(&output)).map_err(|error| error.to_string())?;
+    let verdicts = reports[0]["checks"].as_array().ok_or("no checks")?;
+    assert!(verdicts.iter().any(|check| check["verdict"]["is"] == "same"), "{reports}");
+    let output = program(&["check", "hard", "--size", "24x20"])?;
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("--invariance"), "{}", stderr(&output));
+    Ok(())
+}
+
+/// Times of each node, with the files that were asked for; without timers whole frames alone.
+fn profiles() -> Result<(), Failed> {
+    let (_keep, out) = folder()?;
+    let [trace, csv] = ["trace.json", "nodes.csv"].map(|name| PathBuf::from(&out).join(name).display().to_string());
+    let common = ["profile", "hard", "--backend", "cpu", "--size", "32x24", "--frames", "4"];
+    let output = program(&[&common[..], &["--trace", &trace, "--csv", &csv]].concat())?;
+    succeeded(&output)?;
+    let text = stdout(&output);
+    for word in
+        ["visibility", "alone", "P99", "4 whole frames, timers on", "timers cost", "readings in frames", "left out:"]
+    {
+        assert!(text.contains(word), "no {word} in\n{text}");
+    }
+    let read = |path: &str| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let trace: serde_json::Value = serde_json::from_str(&read(&trace)?).map_err(|error| error.to_string())?;
+    let slices = |name: &str| {
+        let events = trace["traceEvents"].as_array().map(Vec::as_slice).unwrap_or_default();
+        events.iter().filter(|event| event["ph"] == "X" && event["name"] == name).count()
+    };
+    assert_eq!((slices("visibility"), slices("frame 4")), (4, 1));
+    assert!(read(&csv)?.lines().filter(|line| line.contains(",visibility,")).count() == 2, "in frame and alone");
+    let output = program(&[&common[..], &["--no-timers", "--json"]].concat())?;
+    succeeded(&output)?;
+    let profile: serde_json::Value = serde_json::from_str(&stdout(&output)).map_err(|error| error.to_string())?;
+    assert_eq!((&profile["frame"]["count"], &profile["timed_frame"]), (&4.into(), &serde_json::Value::Null));
+    assert_eq!(profile["clocks"]["timers"], false);
+    Ok(())
 }
 
 /// The mean over sets keeps view-samples and visible shares and has no mask; its record says what it is.
@@ -37,8 +88,8 @@ fn light_sets() -> Result<(), Failed> {
     Ok(())
 }
 
-/// The program, built by this test run.
-fn program(words: &[&str]) -> Result<Output, Failed> {
+/// Where the program lies that this test run built.
+pub fn program_path() -> Result<PathBuf, Failed> {
     let mut path = std::env::current_exe().map_err(|error| error.to_string())?;
     path.pop();
     if path.ends_with("deps") {
@@ -48,7 +99,11 @@ fn program(words: &[&str]) -> Result<Output, Failed> {
     if !path.exists() {
         return Err(format!("{} is not built; run the tests of the whole workspace", path.display()).into());
     }
-    Command::new(path).args(words).current_dir(root()).output().map_err(|error| error.to_string().into())
+    Ok(path)
+}
+
+fn program(words: &[&str]) -> Result<Output, Failed> {
+    Command::new(program_path()?).args(words).current_dir(root()).output().map_err(|error| error.to_string().into())
 }
 
 fn folder() -> Result<(tempfile::TempDir, String), Failed> {
@@ -61,7 +116,8 @@ fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-fn stderr(output: &Output) -> String {
+/// What it said on stderr.
+pub fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 

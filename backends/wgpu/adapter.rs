@@ -84,7 +84,9 @@ pub(crate) fn open(wanted: &Wanted) -> Result<Opened, Problem> {
             .found(found)
             .remedy("use the CPU backend, or install a Vulkan driver such as Mesa's lavapipe"));
     };
-    let useful = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::CONSERVATIVE_RASTERIZATION;
+    let useful = wgpu::Features::TIMESTAMP_QUERY
+        | wgpu::Features::PIPELINE_STATISTICS_QUERY
+        | wgpu::Features::CONSERVATIVE_RASTERIZATION;
     let descriptor = wgpu::DeviceDescriptor {
         label: Some("shadowgraph"),
         required_features: adapter.features() & useful,

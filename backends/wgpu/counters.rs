@@ -75,7 +75,7 @@ impl Prepared {
                             .remedy(remedy);
                         wrong.get_or_insert(problem);
                     }
-                    CounterKind::MustBeZero(_) | CounterKind::Info => {}
+                    CounterKind::MustBeZero(_) | CounterKind::Info | CounterKind::OnCpu | CounterKind::Most => {}
                 }
             }
         }

@@ -29,6 +29,7 @@ pub mod segment;
 pub mod session;
 mod settle;
 mod shader;
+pub mod statistics;
 pub mod timing;
 pub mod upload;
 

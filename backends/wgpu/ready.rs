@@ -15,10 +15,10 @@ use std::ops::Range;
 /// Consecutive nodes of a plan with their memory, pipelines and inputs on the device.
 #[derive(Debug)]
 pub struct Ready<'s> {
-    session: &'s Session,
+    pub(crate) session: &'s Session,
     segment: Segment,
     nodes: Range<usize>,
-    prepared: Prepared,
+    pub(crate) prepared: Prepared,
     first: Times,
 }
 
@@ -95,6 +95,16 @@ impl Ready<'_> {
     /// Size of each node's outputs, bytes.
     pub fn bytes(&self) -> Vec<u64> {
         (0..self.prepared.plan.nodes.len()).map(|node| self.prepared.output_bytes(node)).collect()
+    }
+
+    /// Size of each node's scratch memory and counters, bytes; nodes share scratch memory.
+    pub fn scratch_bytes(&self) -> Vec<u64> {
+        (0..self.prepared.plan.nodes.len()).map(|node| self.prepared.scratch_bytes(node)).collect()
+    }
+
+    /// Device memory taken, bytes.
+    pub fn memory_bytes(&self) -> u64 {
+        self.prepared.bytes()
     }
 
     /// Values of kept slots, and of those that a node after these reads, by slot of the whole plan.

@@ -3,11 +3,19 @@
 use crate::command::{Act, Kernel, Raster, Size};
 use crate::externals::{Bound, Externals};
 use crate::prepare::Prepared;
+use crate::statistics::Invocations;
 use crate::timing::Stamps;
 use shadowgraph_core::pass::Pass;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::ColorTarget;
 use std::ops::Range;
+
+/// What is asked of the device while nodes run.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Queries<'a> {
+    pub stamps: Option<&'a Stamps>,
+    pub invocations: Option<&'a Invocations>,
+}
 
 impl Prepared {
     /// Records every wgpu node, in the order of the plan, in debug groups named by node. Nothing is submitted.
@@ -29,7 +37,7 @@ impl Prepared {
         nodes: Range<usize>,
     ) -> Result<(), Problem> {
         let bound = Bound::new(self, externals)?;
-        self.record_nodes(encoder, &bound, nodes, None);
+        self.record_nodes(encoder, &bound, nodes, Queries::default());
         Ok(())
     }
 
@@ -43,11 +51,13 @@ impl Prepared {
         encoder: &mut wgpu::CommandEncoder,
         bound: &Bound,
         nodes: Range<usize>,
-        stamps: Option<&Stamps>,
+        queries: Queries,
     ) {
         for index in nodes {
             let Some(acts) = &self.nodes[index] else { continue };
             let node = &self.plan.nodes[index];
+            let span = tracing::debug_span!("record", id = node.id, pass = node.pass.name);
+            let _entered = span.enter();
             if self.labels {
                 encoder.push_debug_group(&node.id);
             }
@@ -65,12 +75,14 @@ impl Prepared {
                         encoder.copy_buffer_to_buffer(from, from_start, to, to_start, *bytes);
                     }
                     Act::Compute(kernels) => {
-                        let stamps = stamps.and_then(|stamps| stamps.compute(index, begin, end));
-                        compute(encoder, bound, node.pass, kernels, stamps);
+                        let stamps = queries.stamps.and_then(|stamps| stamps.compute(index, begin, end));
+                        let query = queries.invocations.and_then(|counted| counted.query(index, place));
+                        compute(encoder, bound, node.pass, kernels, stamps, query);
                     }
                     Act::Draw(raster) => {
-                        let stamps = stamps.and_then(|stamps| stamps.render(index, begin, end));
-                        draw(encoder, bound, raster, stamps);
+                        let stamps = queries.stamps.and_then(|stamps| stamps.render(index, begin, end));
+                        let query = queries.invocations.and_then(|counted| counted.query(index, place));
+                        draw(encoder, bound, raster, stamps, query);
                         if let Some(settle) = &self.settle {
                             settle.record(encoder);
                         }
@@ -95,10 +107,14 @@ fn compute(
     node: &Pass,
     kernels: &[Kernel],
     timestamp_writes: Option<wgpu::ComputePassTimestampWrites>,
+    query: Option<(&wgpu::QuerySet, u32)>,
 ) {
     let descriptor =
         wgpu::ComputePassDescriptor { label: bound.prepared.labels.then_some(node.name), timestamp_writes };
     let mut pass = encoder.begin_compute_pass(&descriptor);
+    if let Some((set, index)) = query {
+        pass.begin_pipeline_statistics_query(set, index);
+    }
     for kernel in kernels {
         if bound.prepared.labels {
             pass.push_debug_group(kernel.label);
@@ -116,6 +132,9 @@ fn compute(
             pass.pop_debug_group();
         }
     }
+    if query.is_some() {
+        pass.end_pipeline_statistics_query();
+    }
 }
 
 fn draw(
@@ -123,6 +142,7 @@ fn draw(
     bound: &Bound,
     raster: &Raster,
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,
+    query: Option<(&wgpu::QuerySet, u32)>,
 ) {
     let draw = &raster.draw;
     let color: Vec<_> = raster.color.iter().map(|part| bound.texture(part).create_view(&Default::default())).collect();
@@ -155,10 +175,16 @@ fn draw(
         timestamp_writes,
         ..Default::default()
     });
+    if let Some((set, index)) = query {
+        pass.begin_pipeline_statistics_query(set, index);
+    }
     if draw.vertices > 0 && draw.instances > 0 {
         pass.set_pipeline(&raster.pipeline);
         pass.set_bind_group(0, &raster.group.get(bound, draw.label), &[]);
         pass.draw(0..draw.vertices, 0..draw.instances);
+    }
+    if query.is_some() {
+        pass.end_pipeline_statistics_query();
     }
 }
 

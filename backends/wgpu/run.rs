@@ -5,6 +5,7 @@ use crate::externals::Bound;
 use crate::features::check_features;
 use crate::prepare::{Prepared, Request};
 use crate::readback::{read_part, read_words, wait};
+use crate::record::Queries;
 use crate::session::{NodeRun, Options, Outcome, Session};
 use crate::timing::{Clock, Stamps};
 use shadowgraph_core::array::Array;
@@ -130,12 +131,15 @@ impl Session {
     pub(crate) fn frame(&self, prepared: &Prepared, clock: Clock) -> Result<Times, Problem> {
         let bound = Bound::none(prepared);
         let count = prepared.nodes.len();
+        let span = tracing::info_span!("stretch", graph = prepared.plan.name, nodes = count, clock = clock.text());
+        let _entered = span.enter();
         let stamps = (clock == Clock::Device).then(|| Stamps::new(&self.device, count));
         let mut from = None;
         // Milliseconds since the first submission, at submit and when done.
         let mut one = |nodes: Range<usize>| {
             let mut encoder = self.device.create_command_encoder(&Default::default());
-            prepared.record_nodes(&mut encoder, &bound, nodes, stamps.as_ref());
+            let queries = Queries { stamps: stamps.as_ref(), ..Queries::default() };
+            prepared.record_nodes(&mut encoder, &bound, nodes, queries);
             if let Some(stamps) = &stamps {
                 stamps.resolve(&mut encoder);
             }
@@ -146,7 +150,12 @@ impl Session {
             Ok([begin, from.elapsed().as_secs_f64() * 1e3])
         };
         if clock == Clock::HostPerNode {
-            let spans = (0..count).map(|node| one(node..node + 1)).collect::<Result<Vec<_>, Problem>>()?;
+            let mut timed = |index: usize| {
+                let node = &prepared.plan.nodes[index];
+                let span = tracing::info_span!("node", id = node.id, pass = node.pass.name);
+                span.in_scope(|| one(index..index + 1))
+            };
+            let spans = (0..count).map(&mut timed).collect::<Result<Vec<_>, Problem>>()?;
             let all = spans.iter().map(|[begin, end]| end - begin).sum();
             let nodes = spans.into_iter().map(|[begin, end]| Reading::of(begin, end)).collect();
             return Ok(Times { all, nodes, clock });
@@ -156,6 +165,10 @@ impl Session {
             Some(stamps) => stamps.readings(prepared, &self.queue)?,
             None => vec![Reading::Untimed; count],
         };
+        // On a device's own clock a node is no span of this thread: an event says when it ran.
+        for (node, reading) in prepared.plan.nodes.iter().zip(&nodes).filter(|_| stamps.is_some()) {
+            tracing::info!(id = node.id, pass = node.pass.name, ?reading, "node");
+        }
         Ok(Times { all: end - begin, nodes, clock })
     }
 
@@ -201,7 +214,7 @@ impl Prepared {
         self.plan.nodes[node].outputs.iter().map(|(_, slot)| bytes(*slot)).sum()
     }
 
-    fn scratch_bytes(&self, node: usize) -> u64 {
+    pub(crate) fn scratch_bytes(&self, node: usize) -> u64 {
         self.layout.scratch(node).iter().chain(self.layout.counters(node)).map(|part| part.bytes()).sum()
     }
 }

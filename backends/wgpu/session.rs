@@ -133,6 +133,10 @@ impl Session {
     pub fn facts(&self) -> &AdapterFacts {
         &self.facts
     }
+    /// Whether the device has timestamps.
+    pub fn has_timestamps(&self) -> bool {
+        self.device.features().contains(wgpu::Features::TIMESTAMP_QUERY)
+    }
     /// The device, for callers that record work of their own.
     pub fn device(&self) -> &wgpu::Device {
         &self.device

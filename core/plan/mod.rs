@@ -1,6 +1,12 @@
 //! The plan: all that a backend ever sees.
 
+#[cfg(test)]
+mod chain;
 mod given;
+mod order;
+
+#[cfg(test)]
+use chain::chain;
 mod pinned;
 
 use crate::array::Element;

@@ -10,6 +10,7 @@ use shadowgraph_core::plan::{Plan, Producer, Slot};
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::shared::{FACING_AWAY, KEPT, NO_TRIANGLE};
 use shadowgraph_cpu::Progress;
+use shadowgraph_measure::flip;
 
 /// Values of a finished run, by what they are.
 #[derive(Clone, Debug)]
@@ -200,6 +201,13 @@ pub fn errors(test: &Answers, truth: &Truth) -> Result<Errors, Problem> {
         };
         let widths = penumbra_widths(&test.picture(&seen), &grey.picture(&right), test.size, joined)?;
         errors.penumbra_width_ratio = widths.median_ratio;
+    }
+    if let (Some(image), Some(right)) = (&test.image, &grey.image) {
+        errors.flip_tonemapped = Some(flip::tone_mapped(image, right, flip::DEFAULT_PPD)?.flip.mean);
+        // Without light there is no range of exposures to look through.
+        if right.as_f32().chunks_exact(4).any(|texel| texel[..3].iter().any(|value| *value > 0.0)) {
+            errors.flip_linear = Some(flip::high_range(image, right, flip::DEFAULT_PPD)?.flip.mean);
+        }
     }
     Ok(errors)
 }

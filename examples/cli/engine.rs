@@ -6,17 +6,19 @@ use crate::outcome::Outcome;
 use crate::ranges::Ranges;
 use crate::record::DeviceRecord;
 use crate::stretch::{Frame, How};
+use crate::trial::Trial;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::plan::{Backend, Grown, Plan};
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_cpu::{Progress, Store};
-use shadowgraph_wgpu::Session;
+use shadowgraph_wgpu::{Options, Session};
 use std::ops::Range;
 
 /// Values of slots by name, beside the job's.
 pub type Given = [(String, Array)];
 
 /// What nodes can run on.
+#[derive(Clone)]
 pub struct Machine {
     session: Option<&'static Session>,
     /// Where nodes run that are not pinned.
@@ -106,7 +108,7 @@ impl Machine {
     }
 
     /// Runs `plan` on `job`: once, or `repeat` times after a warm-up. Where some nodes run on each backend, or view-samples in ranges,
-    /// each stretch of nodes on wgpu is repeated by itself and CPU nodes run once.
+    /// each stretch of nodes on wgpu is repeated by itself and CPU nodes run once: then there is one time, a median.
     ///
     /// # Errors
     /// A node reports a problem, memory does not suffice, a value overflows its buffer past growing.
@@ -127,6 +129,14 @@ impl Machine {
         progress: &Progress,
     ) -> Result<Outcome, Problem> {
         let mut outcome = Outcome { runs_count: repeat, ..Outcome::new(plan) };
+        if repeat > 1 && self.session_for(plan, job, given)?.is_some() {
+            let mut trial = Trial::new(self, plan, job, given, &Options::default(), progress)?;
+            for _ in 0..repeat {
+                trial.frame(true)?.record(plan, &mut outcome, true);
+            }
+            outcome.values = trial.values()?;
+            return Ok(outcome);
+        }
         let (rounds, warm_ups) = if shadowgraph_cpu::runs_all(plan) { (repeat, u32::from(repeat > 1)) } else { (1, 0) };
         let how = How { repeat, is_warmed_up: repeat > 1, ..How::once(self, job, progress) };
         for round in 0..rounds + warm_ups {
@@ -148,6 +158,8 @@ impl Machine {
         let count = self.range_count(plan, &ranges, &inputs, how.job)?;
         let mut store = Store::new(plan);
         supply(plan, &inputs, &mut store)?;
+        let span = tracing::info_span!("frame", graph = plan.name, ranges = count);
+        let _entered = span.enter();
         let mut frame = Frame::new(plan);
         if count == 1 && how.job.sets.len() == 1 {
             for stretch in segments(plan) {
@@ -170,6 +182,15 @@ impl Machine {
         let Some(session) = self.session.filter(|_| is_whole) else { return Ok(None) };
         let count = self.range_count(plan, &Ranges::of(plan, false), &inputs, job)?;
         Ok((count == 1).then_some(session))
+    }
+
+    /// How many parts of the view-samples `plan` runs over on `job`, one after another.
+    ///
+    /// # Errors
+    /// A graph input is missing.
+    pub fn parts_count(&self, plan: &Plan, job: &Job) -> Result<usize, Problem> {
+        let ranges = Ranges::of(plan, job.sets.len() > 1);
+        Ok(job.sets.len() * self.range_count(plan, &ranges, &job.inputs(), job)?)
     }
 
     /// Ranges of view-samples, of each sample set where there are several, to run in.

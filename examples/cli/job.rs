@@ -233,7 +233,10 @@ pub fn point(flag: &str, text: &str) -> Result<[f32; 3], Problem> {
 }
 
 /// Width and height, each 1 to 16,384.
-fn size(text: &str) -> Result<[usize; 2], Problem> {
+///
+/// # Errors
+/// Anything else.
+pub fn size(text: &str) -> Result<[usize; 2], Problem> {
     let sides: Vec<usize> = text.split('x').filter_map(|part| part.trim().parse().ok()).collect();
     match sides.as_slice() {
         [width, height] if (1..=16_384).contains(width) && (1..=16_384).contains(height) => Ok([*width, *height]),

@@ -2,7 +2,9 @@
 
 use clap::Parser;
 use shadowgraph::args::{Cli, Command};
-use shadowgraph::commands::{check, compare, export, graph, passes, render, scenes, stability, verify};
+use shadowgraph::commands::{
+    chart, check, compare, export, graph, passes, profile, render, scenes, stability, suggest, verify,
+};
 use shadowgraph_core::problem::Problems;
 use std::io::Write;
 use std::process::ExitCode;
@@ -36,6 +38,9 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
         Command::Verify(args) => args.run.threads,
         Command::Stability(args) => args.threads,
         Command::Compare(args) => args.threads,
+        Command::Chart(args) => args.threads,
+        Command::Suggest(args) => args.threads,
+        Command::Profile(args) => args.machine.threads,
         _ => 0,
     };
     // Only fails when a pool exists already, which none does here.
@@ -44,8 +49,12 @@ fn run(command: &Command) -> Result<(String, bool), Problems> {
         Command::Render(args) => (render::text(&catalogue, args)?, true),
         Command::Verify(args) => verify::text(&catalogue, args)?,
         Command::Compare(args) => compare::text(&catalogue, args)?,
+        Command::Chart(args) => (chart::text(&catalogue, args)?, true),
+        Command::Suggest(args) => suggest::text(&catalogue, args)?,
+        Command::Merge(args) => (chart::merge_text(args)?, true),
+        Command::Profile(args) => (profile::text(&catalogue, args)?, true),
+        Command::Check(args) => check::text(&catalogue, args)?,
         Command::Stability(args) => stability::text(&catalogue, args)?,
-        Command::Check(args) => check::text(&catalogue, args),
         Command::Graph(args) => (graph::text(&catalogue, args)?, true),
         Command::Passes(args) => (passes::text(&catalogue, args)?, true),
         Command::Scenes(args) => (scenes::text(args)?, true),

@@ -28,9 +28,12 @@ pub fn write_exr(path: &Path, image: &Array) -> Result<(), Problem> {
 /// # Errors
 /// The file cannot be written.
 pub fn write_png(path: &Path, image: &Array) -> Result<(), Problem> {
-    let bytes: Vec<u8> =
-        image.as_f32().chunks_exact(4).flat_map(|texel| [texel[0], texel[1], texel[2]]).map(srgb).collect();
-    write_rgb(path, image.dim(1), image.dim(0), &bytes)
+    write_rgb(path, image.dim(1), image.dim(0), &rgb_bytes(image))
+}
+
+/// `image` `[H, W, 4]` as packed 8-bit sRGB, clipped to 0..=1.
+pub fn rgb_bytes(image: &Array) -> Vec<u8> {
+    image.as_f32().chunks_exact(4).flat_map(|texel| [texel[0], texel[1], texel[2]]).map(srgb).collect()
 }
 
 /// Writes packed 8-bit RGB.

@@ -29,6 +29,11 @@ pub enum Comparison {
         /// What differs.
         why: String,
     },
+    /// Other values from one node with other parameters: what they are for.
+    Parameters {
+        /// What differs.
+        why: String,
+    },
     /// Other than the contract allows.
     Differs {
         /// Words, bits or cells that differ.
@@ -58,11 +63,20 @@ impl Comparison {
         matches!(self, Self::Equal | Self::Allowed { .. })
     }
 
+    /// The same of a node that has other parameters in the two runs: no contract says that its values are alike then.
+    pub fn of_other_parameters(self) -> Self {
+        match self {
+            Self::Differs { .. } => Self::Parameters { why: self.text() },
+            same => same,
+        }
+    }
+
     /// In a few words.
     pub fn text(&self) -> String {
         match self {
             Self::Equal => "equal".into(),
             Self::Allowed { why } | Self::Within { why } | Self::Approximation { why } => why.clone(),
+            Self::Parameters { why } => format!("by its parameters: {why}"),
             Self::Differs { count, of, first_row, what } => {
                 format!("{count} of {of} {what}; first at row {first_row}")
             }

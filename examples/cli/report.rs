@@ -38,6 +38,23 @@ pub fn bytes_text(bytes: usize) -> String {
 
 /// What ran and what each node cost.
 pub fn run_text(record: &RunRecord) -> String {
+    let mut text = heading_text(record);
+    text.push_str(&nodes_table(record).to_string());
+    text.push('\n');
+    let frame = record.frame_millis;
+    if record.runs_count > 1 {
+        text.push_str(&format!(
+            "{} runs after a warm-up: median {:.2} ms, {:.2} to {:.2}\n",
+            record.runs_count, frame.median, frame.min, frame.max
+        ));
+    } else {
+        text.push_str(&format!("one run, cold: {:.2} ms (--repeat N for medians)\n", frame.median));
+    }
+    text + &left_out_text(record)
+}
+
+/// Graph, scene and machine.
+pub fn heading_text(record: &RunRecord) -> String {
     let scene = &record.scene;
     let mut text = format!(
         "{} on {}{}: {} triangles, {} of {} parts closed, {}x{} pixels, {}\n",
@@ -59,17 +76,12 @@ pub fn run_text(record: &RunRecord) -> String {
             device.adapter, device.adapter_type, device.driver, device.reason
         ),
     });
-    text.push_str(&nodes_table(record).to_string());
-    text.push('\n');
-    let frame = record.frame_millis;
-    if record.runs_count > 1 {
-        text.push_str(&format!(
-            "{} runs after a warm-up: median {:.2} ms, {:.2} to {:.2}\n",
-            record.runs_count, frame.median, frame.min, frame.max
-        ));
-    } else {
-        text.push_str(&format!("one run, cold: {:.2} ms (--repeat N for medians)\n", frame.median));
-    }
+    text
+}
+
+/// What did not run, and remarks.
+pub fn left_out_text(record: &RunRecord) -> String {
+    let mut text = String::new();
     for (node, reason) in &record.left_out {
         text.push_str(&format!("left out: {node}: {reason}\n"));
     }

@@ -6,6 +6,7 @@ use crate::job::Job;
 use crate::outcome::{Outcome, Spread};
 use crate::ranges::{self, Ranges};
 use shadowgraph_core::array::Array;
+use shadowgraph_core::pass::CounterKind;
 use shadowgraph_core::plan::{Backend, Plan};
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::reading::Reading;
@@ -42,6 +43,8 @@ pub struct How<'a> {
     pub is_warmed_up: bool,
     /// Whether nodes on wgpu are timed, which costs.
     pub timers: bool,
+    /// How memory on wgpu is used; what it says of frames and timers does not count.
+    pub options: Options,
     /// Told what is done.
     pub progress: &'a Progress<'a>,
 }
@@ -49,7 +52,7 @@ pub struct How<'a> {
 impl<'a> How<'a> {
     /// Every node once, timed, without a warm-up.
     pub fn once(machine: &'a Machine, job: &'a Job, progress: &'a Progress<'a>) -> Self {
-        Self { machine, job, repeat: 1, is_warmed_up: false, timers: true, progress }
+        Self { machine, job, repeat: 1, is_warmed_up: false, timers: true, options: Options::default(), progress }
     }
 
     /// Neighbouring nodes on one backend.
@@ -64,12 +67,12 @@ impl<'a> How<'a> {
             Backend::Cpu => run_cpu(plan, nodes, self.job.image, store, self.progress)?,
             Backend::Wgpu => self.run_wgpu(plan, nodes, store)?,
         };
-        frame.add(millis, runs);
+        frame.add(plan, millis, runs);
         Ok(())
     }
 
     fn run_wgpu(&self, plan: &Plan, nodes: Range<usize>, store: &mut Store) -> Stretch {
-        let options = Options { timers: self.timers, ..Options::default() };
+        let options = Options { timers: self.timers, ..self.options.clone() };
         let session = self.machine.session()?;
         let ready = session.ready(plan, nodes, &|slot| store.try_get(slot), self.job.image, &options)?;
         let frames = match self.is_warmed_up {
@@ -166,7 +169,7 @@ const PIXEL: &str = "pixel";
 pub struct Frame {
     /// All stretches together, without what lies between them.
     pub millis: f64,
-    /// By node. One that runs over several ranges has its times, bytes and counts added up.
+    /// By node. One that runs over several ranges has its times, bytes and counts added up; of largest counts it has the largest.
     pub nodes: Vec<Option<Ran>>,
     /// Each time a node ran: its index, and when, milliseconds since the first stretch began. What lies between stretches is left out.
     pub pieces: Vec<(usize, Reading)>,
@@ -179,8 +182,10 @@ impl Frame {
     }
 
     /// Takes a stretch in.
-    pub fn add(&mut self, millis: f64, runs: Vec<Ran>) {
-        let from = self.millis;
+    pub fn add(&mut self, plan: &Plan, millis: f64, runs: Vec<Ran>) {
+        // The readings of nodes with a submission each reach past the sum of their times, by what lies between them.
+        let end = |reading: &Reading| if let Reading::Span { end, .. } = reading { *end } else { 0.0 };
+        let from = self.pieces.iter().map(|(_, reading)| end(reading)).fold(self.millis, f64::max);
         self.millis += millis;
         for run in runs {
             self.pieces.push((run.node, run.reading.later(from)));
@@ -190,7 +195,11 @@ impl Frame {
                 Some(earlier) => Ran {
                     millis: earlier.millis.zip(run.millis).map(|(a, b)| a + b),
                     bytes: earlier.bytes + run.bytes,
-                    counts: earlier.counts.iter().zip(&run.counts).map(|(a, b)| a + b).collect(),
+                    counts: {
+                        let counters = plan.nodes[run.node].pass.counters.iter();
+                        let both = earlier.counts.iter().zip(&run.counts);
+                        counters.zip(both).map(|(counter, (a, b))| counter.kind.joined(*a, *b)).collect()
+                    },
                     ..run
                 },
             });
@@ -203,7 +212,9 @@ impl Frame {
             let record = &mut outcome.nodes[run.node];
             let counters = plan.nodes[run.node].pass.counters;
             (record.bytes, record.clock) = (run.bytes, run.clock);
-            record.counts = counters.iter().map(|counter| counter.name).zip(run.counts).collect();
+            let is_kept = |kind| kind != CounterKind::OnCpu || plan.nodes[run.node].on == Backend::Cpu;
+            let counted = counters.iter().zip(run.counts).filter(|(counter, _)| is_kept(counter.kind));
+            record.counts = counted.map(|(counter, count)| (counter.name, count)).collect();
             if is_timed {
                 record.millis.extend(run.millis);
             }

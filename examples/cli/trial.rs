@@ -18,6 +18,7 @@ pub struct Trial<'a> {
     plan: &'a Plan,
     job: &'a Job,
     given: &'a Given,
+    options: Options,
     ready: Option<Ready<'static>>,
     outcome: Outcome,
 }
@@ -47,18 +48,21 @@ impl<'a> Trial<'a> {
                 let made = session.ready(plan, nodes, &|slot| store.try_get(slot), job.image, options)?;
                 let first = made.first();
                 let mut frame = Frame::new(plan);
-                frame.add(first.millis, ran(&made, &[first])?);
+                frame.add(plan, first.millis, ran(&made, &[first])?);
                 for (slot, array) in made.arrays()? {
                     store.put(slot, array);
                 }
                 ready = Some(made);
                 (frame, store)
             }
-            None => machine.frame(plan, given, &How::once(machine, job, progress))?,
+            None => {
+                let how = How { options: options.clone(), ..How::once(machine, job, progress) };
+                machine.frame(plan, given, &how)?
+            }
         };
         frame.record(plan, &mut outcome, true);
         outcome.values = values;
-        Ok(Self { machine, plan, job, given, ready, outcome })
+        Ok(Self { machine, plan, job, given, options: options.clone(), ready, outcome })
     }
 
     /// What the first run gave. Its times are those of a cold start.
@@ -71,21 +75,38 @@ impl<'a> Trial<'a> {
         self.plan
     }
 
+    /// The plan on its device, where it runs on wgpu as a whole.
+    pub fn ready(&self) -> Option<&Ready<'static>> {
+        self.ready.as_ref()
+    }
+
     /// Runs once more. With `timers` off, nodes on wgpu are not timed one by one; those on the CPU always are, which costs nothing.
     ///
     /// # Errors
     /// As [`Machine::run`].
     pub fn frame(&mut self, timers: bool) -> Result<Frame, Problem> {
         let Some(ready) = &self.ready else {
-            let how = How { is_warmed_up: true, timers, ..How::once(self.machine, self.job, &|_, _, _| {}) };
+            self.forget();
+            let options = self.options.clone();
+            let how = How { is_warmed_up: true, timers, options, ..How::once(self.machine, self.job, &|_, _, _| {}) };
             let (frame, values) = self.machine.frame(self.plan, self.given, &how)?;
             self.outcome.values = values;
             return Ok(frame);
         };
+        let span = tracing::info_span!("frame", graph = self.plan.name, timers);
+        let _entered = span.enter();
         let times = ready.frame(timers)?;
         let mut frame = Frame::new(self.plan);
-        frame.add(times.millis, ran(ready, &[times])?);
+        frame.add(self.plan, times.millis, ran(ready, &[times])?);
         Ok(frame)
+    }
+
+    /// Lets go of the values of the last frame on the CPU. Whoever times two trials by turns has both do so after each turn: else each
+    /// runs in the memory that the other leaves free, one in pages it has used before, the other in fresh ones.
+    pub fn forget(&mut self) {
+        if self.ready.is_none() {
+            self.outcome.values = Store::new(self.plan);
+        }
     }
 
     /// The values of the last frame.

@@ -49,6 +49,10 @@ const UNPLACED: Counter = Counter {
     kind: CounterKind::MustBeZero("use light_frame/six_faces, which sees all directions"),
 };
 
+/// The longest list.
+const LONGEST: Counter =
+    Counter { name: "longest_list", doc: "view-samples in the fullest cell", kind: CounterKind::Most };
+
 /// WGSL that both passes join before their kernels: projection, and the test of a view-sample.
 const PLACE: [&str; 3] = [PRELUDE, crate::shared::light_frame::WGSL, include_str!("place.wgsl")];
 
@@ -85,6 +89,7 @@ impl Lists {
         let side = cx.params().u32(SIZE.name) as usize;
         let cells = vec![self.length.len() / (side * side), side, side];
         cx.count(UNPLACED.name, self.unplaced);
+        cx.count(LONGEST.name, u64::from(self.length.iter().copied().max().unwrap_or(0)));
         cx.put(ports::CELL.name, Array::u32([self.cell.len()], self.cell));
         cx.put(ports::SLOT.name, Array::u32([self.slot.len()], self.slot));
         cx.put(ports::LIST_LENGTH.name, Array::u32(cells.clone(), self.length));

@@ -24,6 +24,7 @@ pub mod lu_fill;
 pub mod lu_look_up;
 pub mod lu_record;
 pub mod packed;
+pub mod pair_counts;
 pub mod pair_walk;
 pub mod pair_walk_gpu;
 pub mod predicate;

@@ -7,6 +7,7 @@
 
 use super::hard::{OwnMemo, Scene};
 use super::light_frame::Face;
+use super::pair_counts::PairCounts;
 use super::predicate::Pyramid;
 use super::prefetch::prefetch;
 use super::pyramid::{Cone, LightSpace, Planes, Reach, Spot};
@@ -180,6 +181,7 @@ impl<'a> Receivers<'a> {
         }
         let (first, last) = (from / LANES, (to - 1) / LANES);
         let mut lanes = u16::MAX << (from % LANES);
+        let mut pairs = 0;
         for index in first..=last {
             if index == last {
                 lanes &= u16::MAX >> (LANES - 1 - (to - 1) % LANES);
@@ -190,6 +192,7 @@ impl<'a> Receivers<'a> {
                 continue;
             }
             tested.open = true;
+            pairs += open.count_ones();
             let mut left = candidates(simd, planes, &self.chunks[index]) & open;
             if left != 0 {
                 left &= !lying_on(simd, settle.caster, &self.own[index]);
@@ -198,6 +201,7 @@ impl<'a> Receivers<'a> {
                 tested.hits += settle.chunk(self, index, left);
             }
         }
+        settle.counts.tested += u64::from(pairs);
         tested
     }
 }
@@ -232,14 +236,14 @@ pub struct Settle<'a> {
     /// Its planes in f64 once known; none inside where only the exact predicate can tell.
     cone: Option<Option<Cone>>,
     memo: OwnMemo,
-    /// Pairs that went to the exact predicate.
-    pub exact: u64,
+    /// What was met so far.
+    pub counts: PairCounts,
 }
 
 impl<'a> Settle<'a> {
     /// For `caster` on `face`. `cone` if it is at hand: none inside where only the exact predicate can tell.
     pub fn new(scene: &'a Scene<'a>, face: &'a FaceRange, caster: u32, cone: Option<Option<Cone>>) -> Self {
-        Self { scene, face, caster, cone, memo: OwnMemo::default(), exact: 0 }
+        Self { scene, face, caster, cone, memo: OwnMemo::default(), counts: PairCounts::default() }
     }
 
     /// What to add to a list offset for a place.
@@ -268,7 +272,7 @@ impl<'a> Settle<'a> {
                 Some(false) => false,
                 Some(true) => self.scene.admits(&mut self.memo, own, corners),
                 None => {
-                    self.exact += 1;
+                    self.counts.exact += 1;
                     self.scene.admits(&mut self.memo, own, corners)
                         && Pyramid::new(corners, self.scene.light).covers(self.scene.position[sample])
                 }
@@ -279,7 +283,9 @@ impl<'a> Settle<'a> {
             return 0;
         }
         // The only writers are these; they set bits that no order can change.
-        (hits & !receivers.blocked[index].fetch_or(hits, Relaxed)).count_ones()
+        let new = (hits & !receivers.blocked[index].fetch_or(hits, Relaxed)).count_ones();
+        self.counts.blocking += u64::from(new);
+        new
     }
 }
 

@@ -72,8 +72,9 @@ pub struct CompareArgs {
     /// In B, replace the output of one node at a time by the truth's, and report how much of the error goes away
     #[arg(long, help_heading = "Errors")]
     pub attribute: bool,
-    /// Run A's nodes on the CPU and on wgpu by turns until the node is found that makes them differ; nothing else is compared
-    #[arg(long, conflicts_with_all = ["b", "attribute"])]
+    /// Run A's nodes on the CPU and on wgpu by turns until the node is found that makes them differ; nothing else is compared.
+    /// A's flags are --swap-a and --set-a
+    #[arg(long, conflicts_with_all = ["b", "swap", "set", "on", "attribute", "out"])]
     pub bisect: bool,
     /// Write pictures as DIR/difference.png, DIR/error-a.png and DIR/error-b.png: visible fractions, at one fixed scale
     #[arg(long, value_name = "DIR")]

@@ -10,7 +10,7 @@ use crate::engine::Machine;
 use crate::file_problem;
 use crate::report::Bar;
 use shadowgraph_core::pass::Catalogue;
-use shadowgraph_core::problem::Problems;
+use shadowgraph_core::problem::{Kind, Problems};
 use shadowgraph_measure::paired::Settings;
 use shadowgraph_wgpu::Session;
 use std::path::Path;
@@ -45,7 +45,7 @@ pub fn text(catalogue: &Catalogue, args: &CompareArgs) -> Result<(String, bool),
         truth: (!args.no_truth).then_some(args.truth.as_deref()),
         attribute: args.attribute,
     };
-    let report = compare(&a, &b, &wanted, catalogue, &machine, &progress)?;
+    let report = compare(&a, &b, &wanted, catalogue, &machine, &progress).map_err(|problems| judged(args, problems))?;
     drop(bar);
     let mut text = if args.json { json(&report) } else { report_text(&report) };
     if let Some(folder) = &args.out {
@@ -55,6 +55,14 @@ pub fn text(catalogue: &Catalogue, args: &CompareArgs) -> Result<(String, bool),
         }
     }
     Ok((text, report.is_as_allowed()))
+}
+
+/// A graph that makes nothing to judge can be compared all the same.
+fn judged(args: &CompareArgs, mut problems: Problems) -> Problems {
+    for problem in problems.0.iter_mut().filter(|problem| problem.kind == Kind::Missing && !args.no_truth) {
+        problem.remedy.get_or_insert_with(|| "compare it with --no-truth".into());
+    }
+    problems
 }
 
 fn json(report: &impl serde::Serialize) -> String {
@@ -74,7 +82,8 @@ fn write(folder: &Path, report: &Report) -> Result<String, Problems> {
         }
         let path = folder.join(name);
         write_difference(&path, test, truth)?;
-        wrote.push(format!("wrote {}: red too light, blue too dark", path.display()));
+        wrote.push(format!("wrote {}", path.display()));
     }
+    wrote.push(format!("colours: {}", shadowgraph_charts::error_map::DOC));
     Ok(wrote.join("\n") + "\n")
 }

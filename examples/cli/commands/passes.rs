@@ -204,6 +204,8 @@ fn pass_json(pass: &Pass) -> serde_json::Value {
     let counters = pass.counters.iter().map(|counter| {
         let kind = match counter.kind {
             CounterKind::Info => "info".to_string(),
+            CounterKind::OnCpu => "info, on the CPU only".to_string(),
+            CounterKind::Most => "info, the largest".to_string(),
             CounterKind::Rows(port) => format!("rows of {port}"),
             CounterKind::MustBeZero(remedy) => format!("must be zero: {remedy}"),
         };

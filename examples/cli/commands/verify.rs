@@ -10,7 +10,7 @@ use crate::{file_problem, graph_choice, picture};
 use serde::Serialize;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::pass::Catalogue;
-use shadowgraph_core::plan::{Backend, Plan};
+use shadowgraph_core::plan::{Backend, Plan, Producer, Slot};
 use shadowgraph_core::problem::Problems;
 use shadowgraph_graph::Keep;
 use shadowgraph_passes::shared::contact::contact_band;
@@ -23,6 +23,8 @@ pub struct Row {
     pub view: String,
     /// Where nodes ran that were not pinned.
     pub backend: Backend,
+    /// The value that was judged, `node.port`, and the stage and pass that made it.
+    pub judged: [String; 2],
     /// Time of the graph, milliseconds.
     pub millis: f64,
     /// Time of the truth, milliseconds.
@@ -120,6 +122,7 @@ pub fn verify(
     Ok(Row {
         view,
         backend: ran_on(&plan),
+        judged: judged(&plan),
         millis: outcome.frames_millis.iter().sum::<f64>() / outcome.frames_millis.len().max(1) as f64,
         truth_millis: truth_outcome.frames_millis.iter().sum(),
         verdict,
@@ -131,6 +134,16 @@ fn caster_state(plan: &Plan, outcome: &Outcome, triangles: usize) -> Vec<u32> {
     let slot = plan.slots.iter().position(|slot| slot.port.quantity == "caster_state");
     slot.and_then(|slot| outcome.values.try_get(slot))
         .map_or_else(|| vec![1; triangles], |array| array.as_u32().to_vec())
+}
+
+/// The mask that [`Answer::of`] finds.
+fn judged(plan: &Plan) -> [String; 2] {
+    let made = |slot: &&Slot| slot.port.quantity == "mask" && matches!(slot.producer, Producer::Node(_));
+    let maker = plan.slots.iter().find(made).map(|slot| match slot.producer {
+        Producer::Node(node) => [slot.name.clone(), format!("{:?}", plan.nodes[node].pass)],
+        Producer::Input => [slot.name.clone(), String::new()],
+    });
+    maker.unwrap_or_default()
 }
 
 fn ran_on(plan: &Plan) -> Backend {
@@ -197,6 +210,13 @@ fn rows_text(args: &VerifyArgs, rows: &[Row], is_right: bool) -> String {
     align_right(&mut table, &[2, 3, 4, 5, 6, 7, 8, 9]);
     let mut text = format!("{} against {} on {}\n{table}\n", args.graph.graph, args.truth, args.scene.scene);
     for row in rows {
+        if row.verdict.wrong_outside_count > 0 {
+            let ([port, pass], verdict) = (&row.judged, &row.verdict);
+            text.push_str(&format!(
+                "{}: {} of {} bits are wrong in {port}, made by {pass}\n",
+                row.view, verdict.wrong_outside_count, verdict.all.bits_count
+            ));
+        }
         for wrong in row.verdict.wrong.iter().filter(|wrong| !wrong.contact).take(5) {
             text.push_str(&format!(
                 "{}: {} at pixel {},{} on triangle {}, position {:?}\n",

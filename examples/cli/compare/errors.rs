@@ -10,7 +10,7 @@ use serde::Serialize;
 use shadowgraph_charts::model::Errors;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::pass::Catalogue;
-use shadowgraph_core::plan::{Backend, Plan, Producer};
+use shadowgraph_core::plan::{Backend, Plan, Producer, Slot};
 use shadowgraph_core::problem::Problems;
 use shadowgraph_cpu::Progress;
 use shadowgraph_graph::Keep;
@@ -47,10 +47,12 @@ impl TrueRun {
         Ok(Self { plan: side.plan, ran, truth })
     }
 
-    /// The truth's value of a quantity and shape, if it makes one.
-    fn value(&self, quantity: &str, shape: &[usize]) -> Option<&Array> {
-        let slots = self.plan.slots.iter().filter(|slot| slot.port.quantity == quantity);
-        let values = slots.filter_map(|slot| self.ran.values.get(&slot.name));
+    /// The truth's value of a slot: that of the same node and port, else one of the same quantity and shape, if it makes one.
+    fn value(&self, slot: &Slot, shape: &[usize]) -> Option<&Array> {
+        let is_alike = |other: &&Slot| other.port.quantity == slot.port.quantity;
+        let alike = || self.plan.slots.iter().filter(is_alike);
+        let same = alike().filter(|other| other.name == slot.name);
+        let values = same.chain(alike()).filter_map(|slot| self.ran.values.get(&slot.name));
         values.into_iter().find(|array| array.shape() == shape)
     }
 }
@@ -90,7 +92,7 @@ pub fn attribute(
         for (_, slot) in &node.outputs {
             let slot = &side.plan.slots[*slot];
             let shape = ran.values.get(&slot.name).map_or(&[] as &[usize], |array| array.shape());
-            given.extend(of.value(slot.port.quantity, shape).map(|array| (slot.name.clone(), array.clone())));
+            given.extend(of.value(slot, shape).map(|array| (slot.name.clone(), array.clone())));
         }
         if given.len() < node.outputs.len() {
             unknown.push(node.id.clone());

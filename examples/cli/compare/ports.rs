@@ -4,9 +4,13 @@ use super::side::{Ran, Side};
 use crate::port_difference::{Around, Comparison, port_difference};
 use serde::Serialize;
 use shadowgraph_core::array::Array;
+use shadowgraph_core::param::Value;
 use shadowgraph_core::pass::Contract;
 use shadowgraph_core::plan::{Node, SlotId};
 use std::collections::HashSet;
+
+/// Stages that lay out what others found: of another superset they make another table, and masks made from it are still the same.
+const TABLES: [&str; 2] = ["scan", "caster_fill"];
 
 /// One output of a node that both sides have.
 #[derive(Clone, Debug, Serialize)]
@@ -36,6 +40,8 @@ impl PortRow {
 }
 
 /// Compares all outputs of nodes that both sides have under one name and stage; those in `shared` are the same values.
+///
+/// What a node reads is equivalent where it comes from nodes with equivalent values, or is the same value.
 pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) -> Vec<PortRow> {
     let inputs = [a.0.job.inputs(), b.0.job.inputs()];
     let lights = b.0.job.light_samples_count();
@@ -47,6 +53,9 @@ pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) ->
             unequal.insert(id);
         }
     }
+    let mut uncompared: HashSet<SlotId> = HashSet::new();
+    // Equivalent, and not the same.
+    let mut alike: HashSet<SlotId> = HashSet::new();
     let mut rows = Vec::new();
     for (index, node) in b.0.plan.nodes.iter().enumerate() {
         if shared.iter().any(|(of_b, _)| *of_b == index) {
@@ -56,21 +65,48 @@ pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) ->
             a.0.plan.nodes.iter().find(|other| other.id == node.id && other.pass.stage.name == node.pass.stage.name);
         let Some(twin) = twin else {
             // What only B has cannot be compared: what reads it is.
+            uncompared.extend(node.outputs.iter().map(|(_, slot)| *slot));
             continue;
         };
-        let inputs_are_equivalent = node.inputs.iter().all(|(_, slot)| !unequal.contains(slot));
         let around_a: Around = &|port| a.1.around(&a.0.plan, twin, &inputs[0], port);
         let around_b: Around = &|port| b.1.around(&b.0.plan, node, &inputs[1], port);
+        let was_compared = |port: &str, slot: &SlotId| {
+            let of_a = twin.inputs.iter().find(|(name, _)| *name == port);
+            let is_rewired = of_a.is_some_and(|(_, of_a)| a.0.plan.slots[*of_a].name != b.0.plan.slots[*slot].name);
+            !is_rewired && !uncompared.contains(slot)
+        };
+        let is_equivalent = |(port, slot): &(&'static str, SlotId)| {
+            !unequal.contains(slot)
+                && (was_compared(port, slot)
+                    || around_a(port).zip(around_b(port)).is_none_or(|(one, other)| one == other))
+        };
+        let inputs_are_equivalent = node.inputs.iter().all(is_equivalent);
         for (port, slot) in &node.outputs {
             let contract = allowed(twin, node);
-            let comparison = port_difference(node, port, contract, [around_a, around_b], lights);
-            if !comparison.is_equivalent() {
-                unequal.insert(*slot);
+            let mut comparison = port_difference(node, port, contract, [around_a, around_b], lights);
+            // A mask answers the same question whatever the parameters are.
+            if *port != "mask" && have_other_parameters(twin, node) {
+                comparison = comparison.of_other_parameters();
+            }
+            let follows = inputs_are_equivalent && node.inputs.iter().any(|(_, slot)| alike.contains(slot));
+            if follows && TABLES.contains(&node.pass.stage.name) && !comparison.is_equivalent() {
+                comparison = Comparison::Allowed { why: "follows from what it reads".into() };
+            }
+            match comparison {
+                Comparison::Equal => {}
+                Comparison::Allowed { .. } => _ = alike.insert(*slot),
+                _ => _ = unequal.insert(*slot),
             }
             rows.push(PortRow { node: node.id.clone(), port, comparison, inputs_are_equivalent });
         }
     }
     rows
+}
+
+/// Whether a parameter that both have has another value.
+fn have_other_parameters(one: &Node, other: &Node) -> bool {
+    let is_other = |(name, value): &(&str, Value)| one.params.0.iter().any(|(of, was)| of == name && was != value);
+    other.params.0.iter().any(is_other)
 }
 
 /// What two nodes of one stage may differ by: the same pass with the same parameters must repeat itself on one backend, others

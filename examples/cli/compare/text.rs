@@ -52,7 +52,13 @@ fn ports_text(report: &Report) -> String {
     }
     text += &match &report.first_difference {
         Some(node) => format!("first node that differs: {node}\n"),
-        None => "no node differs\n".into(),
+        None => match report.ports.iter().find(|row| !row.comparison.is_equivalent()) {
+            None => "no node differs\n".into(),
+            Some(row) => format!(
+                "no node makes other values of the same inputs; the first that are not the same: {}.{}\n",
+                row.node, row.port
+            ),
+        },
     };
     for row in report.ports.iter().filter(|row| row.is_fault()) {
         text += &format!("NOT AS ITS CONTRACT ALLOWS: {}.{}: {}\n", row.node, row.port, row.comparison.text());
@@ -70,9 +76,12 @@ pub fn figure(value: Option<f64>) -> String {
     }
 }
 
+/// One of the errors.
+type Figure = fn(&Errors) -> Option<f64>;
+
 fn errors_text(errors: &[Errors; 2]) -> String {
     let mut rows = table(&["error against the truth", "A", "B"]);
-    let figures: [(&str, fn(&Errors) -> Option<f64>); 9] = [
+    let figures: [(&str, Figure); 11] = [
         ("wrong bits, share", |errors| errors.wrong_bit_share),
         ("light leak, share", |errors| errors.light_leak_share),
         ("shadow leak, share", |errors| errors.shadow_leak_share),
@@ -82,6 +91,8 @@ fn errors_text(errors: &[Errors; 2]) -> String {
         ("largest error", |errors| errors.max),
         ("mean error, above 0 too light", |errors| errors.mean_signed),
         ("penumbra width over true width", |errors| errors.penumbra_width_ratio),
+        ("mean FLIP, tone-mapped", |errors| errors.flip_tonemapped),
+        ("mean HDR-FLIP, linear", |errors| errors.flip_linear),
     ];
     for (name, of) in figures {
         rows.add_row([name.to_string(), figure(of(&errors[0])), figure(of(&errors[1]))]);
@@ -142,7 +153,8 @@ fn timing_text(timing: &Timing, report: &Report) -> String {
 
 /// A verdict needs blocks enough for a sign test at its confidence.
 fn too_short(timing: &Timing) -> String {
-    let least = (1..).find(|count| sign_test(*count, *count) <= 1.0 - timing.frame.verdict_confidence).unwrap_or(0);
+    let least =
+        (1..).find(|count| sign_test(*count, *count) <= (1.0 - timing.frame.verdict_confidence) / 2.0).unwrap_or(0);
     match timing.frame.blocks_count {
         count if count < least => {
             format!(

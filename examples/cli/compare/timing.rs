@@ -8,6 +8,7 @@ use shadowgraph_core::plan::Backend;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_measure::paired::{Block, Paired, Settings, Side, Stop, Summary, summarise};
 use std::collections::HashMap;
+use std::time::Instant;
 
 /// A timing shorter than this, milliseconds, is of several frames: clocks and schedulers are no finer.
 const SHORTEST_MILLIS: f64 = 2.0;
@@ -56,7 +57,12 @@ pub fn time<'t>(
     settings: Settings,
     told: &dyn Fn(u64, u64),
 ) -> Result<Timing, Problem> {
-    let once = [a.frame(false)?.millis, b.frame(false)?.millis];
+    let once = |trial: &mut Trial| {
+        let millis = trial.frame(false).map(|frame| frame.millis);
+        trial.forget();
+        millis
+    };
+    let once = [once(a)?, once(b)?];
     let shortest = once[0].min(once[1]).max(1e-3);
     let frames_count = ((SHORTEST_MILLIS / shortest).ceil() as usize).clamp(1, MOST_FRAMES);
     let is_warmed = once[0].max(once[1]) < WARMED_MILLIS;
@@ -65,6 +71,7 @@ pub fn time<'t>(
     let free = [&*a, &*b].iter().all(|trial| trial.plan().nodes.iter().all(|node| node.on == Backend::Cpu));
     let mut clock = String::new();
     while let Some(order) = paired.next_block() {
+        let begin = Instant::now();
         let mut millis = [0.0; 4];
         for (place, side) in order.into_iter().enumerate() {
             let trial = match side {
@@ -72,17 +79,20 @@ pub fn time<'t>(
                 Side::B => &mut *b,
             };
             if is_warmed {
-                trial.frame(false)?;
+                paired.spend(trial.frame(false)?.millis);
             }
             let mut frames = Vec::with_capacity(frames_count);
             for _ in 0..frames_count {
                 frames.push(trial.frame(false)?);
             }
+            trial.forget();
             millis[place] = (frames.iter().map(|frame| frame.millis).sum::<f64>() / frames_count as f64).max(1e-6);
             if free {
                 nodes.add(order, place, trial, &frames);
             }
         }
+        // Warm-up, further frames and making ready count against the budget too.
+        paired.spend(begin.elapsed().as_secs_f64() * 1e3 - millis.iter().sum::<f64>());
         paired.push(millis)?;
         told(paired.blocks().len() as u64, u64::from(settings.most_blocks));
     }
@@ -100,6 +110,7 @@ pub fn time<'t>(
                     Side::B => &mut *b,
                 };
                 let frame = trial.frame(true)?;
+                trial.forget();
                 millis[place] = frame.millis.max(1e-6);
                 clock = frame
                     .nodes
@@ -121,11 +132,14 @@ pub fn time<'t>(
     Ok(Timing { frame, stop, frames_count, nodes: nodes.finish(&settings)?, nodes_clock: clock })
 }
 
+/// A block of one node: who ran when, and its times where it ran.
+type NodeBlock = ([Side; 4], [Option<f64>; 4]);
+
 /// Times of nodes by block, in the order that nodes run.
 #[derive(Default)]
 struct Nodes {
     order: Vec<String>,
-    blocks: HashMap<String, Vec<([Side; 4], [Option<f64>; 4])>>,
+    blocks: HashMap<String, Vec<NodeBlock>>,
 }
 
 impl Nodes {

@@ -47,9 +47,9 @@ impl Block {
         if outer { [self.millis[0], self.millis[3]] } else { [self.millis[1], self.millis[2]] }
     }
 
-    /// Logarithm of B over A, each as the geometric mean of its two.
+    /// Logarithm of B over A, each the smaller of its two: other work makes a timing longer, never shorter.
     pub fn log_ratio(&self) -> f64 {
-        let mean = |side: Side| self.of(side).iter().map(|millis| millis.ln()).sum::<f64>() / 2.0;
-        mean(Side::B) - mean(Side::A)
+        let undisturbed = |side: Side| self.of(side)[0].min(self.of(side)[1]);
+        (undisturbed(Side::B) / undisturbed(Side::A)).ln()
     }
 }

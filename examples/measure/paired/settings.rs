@@ -24,7 +24,7 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// A difference of 2 % counts, at 99.99 %; 1 % either way at 95 %; 20 to 400 blocks, two minutes.
+    /// A difference of 2 % counts, at 99.99 %; 1 % either way at 95 %; 20 to 4000 blocks, two minutes.
     fn default() -> Self {
         Self {
             threshold: 0.02,
@@ -32,7 +32,7 @@ impl Default for Settings {
             verdict_confidence: 0.9999,
             half_width: 0.01,
             pilot_blocks: 20,
-            most_blocks: 400,
+            most_blocks: 4000,
             budget_millis: Some(120_000.0),
             seed: 1,
         }

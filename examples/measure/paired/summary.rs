@@ -58,6 +58,9 @@ pub struct Summary {
     pub beyond_count: u64,
     /// Chance of so many of them, or more, if half of all blocks would lie there: the sign test, one-sided.
     pub beyond_chance: f64,
+    /// Median ratio of the blocks A B B A alone and of the blocks B A A B alone, each `None` without such blocks. Far apart, they
+    /// tell of something that comes in step with the blocks, such as a first frame that is always slow.
+    pub ratio_by_order: [Option<f64>; 2],
     /// Spread of the blocks: 1.4826 times the median distance of their log ratios from the median, which for a normal distribution is
     /// its standard deviation. As a share of the ratio.
     pub spread: f64,
@@ -87,7 +90,14 @@ pub fn summarise(blocks: &[Block], settings: &Settings) -> Result<Summary, Probl
     let beyond = ratios.iter().filter(|ratio| **ratio * turn > edge).count() as u64;
     let beyond_chance = sign_test(beyond, ratios.len() as u64);
     let nearest = if turn < 0.0 { -verdict_interval.high } else { verdict_interval.low };
-    let certain = nearest > edge && beyond_chance <= (1.0 - settings.verdict_confidence) / 2.0;
+    let by_order = Block::ORDERS.map(|order| {
+        let of_order = blocks.iter().zip(&ratios).filter(|(block, _)| block.order == order);
+        median(&of_order.map(|(_, ratio)| *ratio).collect::<Vec<_>>()).ok()
+    });
+    let balanced = by_order[0].zip(by_order[1]).map(|(first, second)| (first + second) / 2.0);
+    let certain = nearest > edge
+        && beyond_chance <= (1.0 - settings.verdict_confidence) / 2.0
+        && balanced.is_some_and(|ratio| ratio * turn > edge);
     let distances: Vec<f64> = ratios.iter().map(|ratio| (ratio - middle).abs()).collect();
     Ok(Summary {
         blocks_count: blocks.len() as u64,
@@ -105,6 +115,7 @@ pub fn summarise(blocks: &[Block], settings: &Settings) -> Result<Summary, Probl
         verdict_interval: verdict_interval.map(f64::exp),
         beyond_count: beyond,
         beyond_chance,
+        ratio_by_order: by_order.map(|ratio| ratio.map(f64::exp)),
         // That of a normal distribution: 1 over the upper quartile of the standard one.
         spread: 1.482_602_218_505_602 * median(&distances)?,
         a_millis: SideMillis::of(Side::A, blocks, settings.confidence)?,

@@ -114,8 +114,9 @@ pub fn order_interval(values: &[f64], confidence: f64) -> Result<Option<Interval
     let count = values.len();
     // The median lies below the k-th value with the chance that fewer than k of the values lie below the median.
     let outside = |k: usize| tail(count as u64, (count - k + 1) as u64, 0.5);
-    let k = (1..=count / 2).take_while(|k| 2.0 * outside(*k) <= 1.0 - confidence).last();
-    Ok(k.map(|k| Interval { low: values[k - 1], high: values[count - k] }))
+    let ranks: Vec<usize> = (1..=count / 2).collect();
+    let k = ranks.partition_point(|k| 2.0 * outside(*k) <= 1.0 - confidence);
+    Ok((k > 0).then(|| Interval { low: values[k - 1], high: values[count - k] }))
 }
 
 #[cfg(test)]

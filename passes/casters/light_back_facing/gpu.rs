@@ -4,7 +4,8 @@ use crate::ports;
 use shadowgraph_core::input;
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::record::Bind::{Read, ReadWrite, Uniform};
-use shadowgraph_core::record::{GpuCx, Target::Port};
+use shadowgraph_core::record::GpuCx;
+use shadowgraph_core::record::Target::{Counters, Port};
 use shadowgraph_core::scene::flag;
 use shadowgraph_core::shared::{GROUP, LOOP_STEPS, PRELUDE};
 
@@ -24,6 +25,7 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
         Read(Port(input::TRIANGLE_FLAGS.name)),
         Read(Port(input::LIGHT_SAMPLES.name)),
         ReadWrite(Port(ports::CASTER_STATE.name)),
+        ReadWrite(Counters),
     ];
     let pieces = &[PRELUDE, include_str!("kernel.wgsl")];
     cx.dispatch("casters/light_back_facing", pieces, "light_back_facing", bind, count, GROUP);

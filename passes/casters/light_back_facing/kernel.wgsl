@@ -5,6 +5,8 @@
 @group(0) @binding(2) var<storage, read> triangle_flags: array<u32>;
 @group(0) @binding(3) var<storage, read> light_samples: array<f32>;
 @group(0) @binding(4) var<storage, read_write> caster_state: array<u32>;
+// Triangles left out.
+@group(0) @binding(5) var<storage, read_write> culled: atomic<u32>;
 
 // Rounding of the determinant, as a share of the sum of its terms' sizes: Shewchuk (1997), the first bound of orient3d, is
 // 7 half units in the last place, 4.2e-7; more than doubled for devices that round less well.
@@ -44,4 +46,7 @@ fn light_back_facing(@builtin(global_invocation_id) id: vec3<u32>) {
         casts = !surely_in_front(a, b, c, sample);
     }
     caster_state[index] = select(0u, 1u, casts);
+    if !casts {
+        atomicAdd(&culled, 1u);
+    }
 }

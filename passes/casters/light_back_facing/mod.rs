@@ -18,7 +18,7 @@ mod gpu;
 #[cfg(test)]
 mod tests;
 
-use shadowgraph_core::pass::{Contract, Pass};
+use shadowgraph_core::pass::{Contract, Counter, CounterKind, Pass};
 
 /// Leaves out the lit side of closed meshes.
 pub static PASS: Pass = Pass {
@@ -28,7 +28,7 @@ pub static PASS: Pass = Pass {
     source: "Sintorn 2008, section 3.3",
     ignores: &[],
     params: &[],
-    counters: &[],
+    counters: &[Counter { name: "culled", doc: "triangles left out", kind: CounterKind::Info }],
     contract: Contract::Superset,
     features: &[],
     size: super::size,

@@ -73,6 +73,7 @@ pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
             ReadWrite(list_start),
             ReadWrite(Port(ports::LIST_LENGTH.name)),
             ReadWrite(Port(ports::SLOT.name)),
+            ReadWrite(Counters),
         ]
     };
     cx.dispatch("list_build/sort bounds", RANK, "sort_bounds", bind(), count, GROUP);

@@ -5,7 +5,8 @@
 @group(0) @binding(5) var<storage, read_write> keys: array<u32>;
 // Bits of depths above zero, which are ordered as the depths are.
 @group(0) @binding(6) var<storage, read_write> list_far: array<atomic<u32>>;
-@group(0) @binding(7) var<storage, read_write> unplaced: atomic<u32>;
+// View-samples that no face sees, first; the second is counted in the end.
+@group(0) @binding(7) var<storage, read_write> counters: array<atomic<u32>, 2>;
 
 @compute @workgroup_size(64)
 fn sort_keys(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -18,7 +19,7 @@ fn sort_keys(@builtin(global_invocation_id) id: vec3<u32>) {
         cell[index] = NO_CELL;
         keys[index] = size.cells;
         if sample_state[index] == KEPT {
-            atomicAdd(&unplaced, 1u);
+            atomicAdd(&counters[0], 1u);
         }
         return;
     }

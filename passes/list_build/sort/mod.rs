@@ -25,7 +25,7 @@ pub static PASS: Pass = Pass {
     source: "Sintorn 2008, section 3.1; Satish, Harris, Garland 2009, section 4",
     ignores: &[],
     params: &[super::SIZE],
-    counters: &[super::UNPLACED],
+    counters: &[super::UNPLACED, super::LONGEST],
     contract: Contract::Sets,
     features: &[],
     size: super::size,

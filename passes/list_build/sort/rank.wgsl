@@ -15,6 +15,8 @@ struct RankSize {
 // The end of each run after sort_bounds, its length after sort_rank.
 @group(0) @binding(4) var<storage, read_write> list_length: array<u32>;
 @group(0) @binding(5) var<storage, read_write> slot: array<u32>;
+// The length of the longest list, second.
+@group(0) @binding(6) var<storage, read_write> counters: array<atomic<u32>, 2>;
 
 // The two ends of a run write, each its own word.
 @compute @workgroup_size(64)
@@ -47,6 +49,11 @@ fn sort_rank(@builtin(global_invocation_id) id: vec3<u32>) {
     slot[order[at]] = at - start;
     // The first of a run alone turns its end into its length.
     if at == start {
-        list_length[key] -= start;
+        let length = list_length[key] - start;
+        list_length[key] = length;
+        // Few get past the look: most lists are not the longest.
+        if length > atomicLoad(&counters[1]) {
+            atomicMax(&counters[1], length);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use crate::shared::footprint::{Footprint, Grid};
 use crate::shared::hard::{Scene, mask};
 use crate::shared::light_frame;
+use crate::shared::pair_counts::PairCounts;
 use crate::shared::predicate::Corners;
 use crate::shared::pyramid::{Planes, Reach};
 use crate::shared::receivers::{FaceRange, Receivers, Settle};
@@ -43,62 +44,62 @@ pub(super) fn run_at(cx: &mut CpuCx, level: Level) -> Result<(), Problem> {
     let extents = (0..faces.len()).map(|face| receivers.extent(face)).collect();
     let caster_state = cx.input("caster_state").as_u32();
     let walk = Walk { scene, caster_state, receivers, grids, extents, side, offsets };
-    let exact = walk.all(level, cx.progress());
+    let counts = walk.all(level, cx.progress());
     let wild_blocked = scene.blocked_wild(&walk.receivers, caster_state);
     let mask = mask(&walk.receivers, cx.input("sample_state").as_u32(), &wild_blocked);
-    cx.count("exact_pairs", exact);
+    counts.count(cx);
     cx.put("mask", mask);
     Ok(())
 }
 
 impl Walk<'_> {
-    /// Every caster on every face; the number of pairs that went to the exact predicate.
-    fn all(&self, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) -> u64 {
+    /// Every caster on every face.
+    fn all(&self, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) -> PairCounts {
         let tasks = self.scene.triangles.par_chunks(CASTERS_A_TASK).enumerate();
         let (done, total) = (AtomicU64::new(0), tasks.len() as u64);
         let step = (total / 100).max(1);
         tasks
             .map(|(task, triangles)| {
-                let exact = dispatch!(level, simd => self.task(simd, task * CASTERS_A_TASK, triangles));
+                let counts = dispatch!(level, simd => self.task(simd, task * CASTERS_A_TASK, triangles));
                 let done = done.fetch_add(1, Relaxed) + 1;
                 if done % step == 0 {
                     progress(done, total);
                 }
-                exact
+                counts
             })
             .sum()
     }
 
     #[inline(always)]
-    fn task<S: Simd>(&self, simd: S, first: usize, triangles: &[Corners]) -> u64 {
-        let mut exact = 0;
+    fn task<S: Simd>(&self, simd: S, first: usize, triangles: &[Corners]) -> PairCounts {
+        let mut counts = PairCounts::default();
         for (face, range) in self.receivers.faces.iter().enumerate() {
             if range.places[0] == range.places[1] {
                 continue;
             }
             for (index, corners) in triangles.iter().enumerate() {
                 if self.caster_state[first + index] != 0 {
-                    exact += self.caster(simd, face, first + index, corners);
+                    counts += self.caster(simd, face, first + index, corners);
                 }
             }
         }
-        exact
+        counts
     }
 
     #[inline(always)]
-    fn caster<S: Simd>(&self, simd: S, face: usize, caster: usize, corners: &Corners) -> u64 {
+    fn caster<S: Simd>(&self, simd: S, face: usize, caster: usize, corners: &Corners) -> PairCounts {
         let grid = &self.grids[face];
         let range = &self.receivers.faces[face];
         let turned = range.space.corners(corners);
         if grid.is_beside(&turned) {
-            return 0;
+            return PairCounts::default();
         }
         let (cone, footprint, planes) = match range.space.reach_of(corners, turned) {
-            Reach::Nothing => return 0,
+            Reach::Nothing => return PairCounts::default(),
             Reach::Anything => (None, Footprint::everything(grid), Planes::ANYTHING),
             Reach::Cone(cone) => {
                 let Some(footprint) = Footprint::new(&cone, grid) else {
-                    return 0;
+                    return PairCounts::default();
                 };
                 (Some(cone), footprint, Planes::new(&cone, self.extents[face]))
             }
@@ -111,7 +112,7 @@ impl Walk<'_> {
                 self.run_of_cells(simd, [start + first, start + last], &planes, &footprint, &mut settle);
             }
         }
-        settle.exact
+        settle.counts
     }
 
     /// Neighbouring cells, first and last.

@@ -26,7 +26,8 @@ mod gpu;
 mod tests;
 
 use super::STAGE;
-use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
+use crate::shared::pair_counts::PAIR_COUNTERS;
+use shadowgraph_core::pass::{Contract, Feature, Pass};
 use shadowgraph_core::size::SizeCx;
 
 /// The pass.
@@ -37,11 +38,7 @@ pub static PASS: Pass = Pass {
     source: "Sintorn 2008, sections 3.2 and 3.3; Aila, Laine 2004, section 5.1",
     ignores: &["normal", "caster_offset", "caster_entries", "lu", "lu_layout", "bvh_nodes", "bvh_order"],
     params: &[],
-    counters: &[Counter {
-        name: "exact_pairs",
-        doc: "(view-sample, caster) pairs that only exact arithmetic, on a GPU that of two floats, could decide",
-        kind: CounterKind::Info,
-    }],
+    counters: PAIR_COUNTERS,
     contract: Contract::WrongBits(1e-5),
     features: &[Feature::IndirectExecution],
     size,

@@ -43,15 +43,11 @@ pub static PASS: Pass = Pass {
             doc: "on a GPU: (view-sample, caster, light sample) decided by arithmetic, where the coplanar rule is in doubt",
             kind: CounterKind::Info,
         },
-        Counter {
-            name: "pairs",
-            doc: "(view-sample, caster) pairs that were met; counted on the CPU",
-            kind: CounterKind::Info,
-        },
+        Counter { name: "pairs", doc: "(view-sample, caster) pairs that were met", kind: CounterKind::OnCpu },
         Counter {
             name: "cut_pairs",
-            doc: "pairs in which the caster may hide a part of the light; counted on the CPU",
-            kind: CounterKind::Info,
+            doc: "pairs in which the caster may hide a part of the light",
+            kind: CounterKind::OnCpu,
         },
     ],
     contract: Contract::Approximate,

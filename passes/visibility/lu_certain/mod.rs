@@ -41,15 +41,11 @@ pub static PASS: Pass = Pass {
             doc: "(view-sample, caster, light sample) that only exact arithmetic, on a GPU that of two floats, could decide",
             kind: CounterKind::Info,
         },
-        Counter {
-            name: "pairs",
-            doc: "(view-sample, caster) pairs that were met; counted on the CPU",
-            kind: CounterKind::Info,
-        },
+        Counter { name: "pairs", doc: "(view-sample, caster) pairs that were met", kind: CounterKind::OnCpu },
         Counter {
             name: "cut_pairs",
-            doc: "pairs in which the caster may hide a part of the light; counted on the CPU",
-            kind: CounterKind::Info,
+            doc: "pairs in which the caster may hide a part of the light",
+            kind: CounterKind::OnCpu,
         },
     ],
     contract: Contract::WrongBits(1e-5),

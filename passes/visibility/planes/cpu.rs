@@ -2,6 +2,7 @@
 
 use crate::shared::hard::{Scene, mask};
 use crate::shared::light_frame;
+use crate::shared::pair_counts::PairCounts;
 use crate::shared::pyramid::Planes;
 use crate::shared::receiver_tree::EVERYWHERE;
 use crate::shared::receivers::{Receivers, Settle};
@@ -33,20 +34,20 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let caster_entries = cx.input("caster_entries").as_u32();
     let join = Join { scene, receivers, offsets, caster_offsets, caster_entries };
     let level = Level::new();
-    let exact = (0..faces.len()).map(|face| join.face(level, face, side * side)).sum();
+    let counts: PairCounts = (0..faces.len()).map(|face| join.face(level, face, side * side)).sum();
     let wild_blocked = scene.blocked_wild(&join.receivers, cx.input("caster_state").as_u32());
     let mask = mask(&join.receivers, cx.input("sample_state").as_u32(), &wild_blocked);
-    cx.count("exact_pairs", exact);
+    counts.count(cx);
     cx.put("mask", mask);
     Ok(())
 }
 
 impl Join<'_> {
-    /// All cells of `face`; the number of pairs that went to the exact predicate.
-    fn face(&self, level: Level, face: usize, cell_count: usize) -> u64 {
+    /// All cells of `face`.
+    fn face(&self, level: Level, face: usize, cell_count: usize) -> PairCounts {
         let range = &self.receivers.faces[face];
         if range.places[0] == range.places[1] {
-            return 0;
+            return PairCounts::default();
         }
         let extent = self.receivers.extent(face);
         let planes = |corners| Planes::of(&range.space.reach(corners), extent);
@@ -55,21 +56,21 @@ impl Join<'_> {
         cells
             .par_chunks(CELLS_A_TASK)
             .map(|cells| {
-                dispatch!(level, simd => cells.iter().map(|cell| self.cell(simd, face, *cell, &planes)).sum::<u64>())
+                dispatch!(level, simd => cells.iter().map(|cell| self.cell(simd, face, *cell, &planes)).sum::<PairCounts>())
             })
             .sum()
     }
 
     #[inline(always)]
-    fn cell<S: Simd>(&self, simd: S, face: usize, cell: usize, planes: &[Planes]) -> u64 {
+    fn cell<S: Simd>(&self, simd: S, face: usize, cell: usize, planes: &[Planes]) -> PairCounts {
         let range = &self.receivers.faces[face];
         let [from, to] = [cell, cell + 1].map(|at| self.offsets[at] as usize + range.shift);
         if from == to {
-            return 0;
+            return PairCounts::default();
         }
         let trees = &self.receivers.trees;
         let tree = trees.between(cell, cell).first();
-        let mut exact = 0;
+        let mut counts = PairCounts::default();
         let [start, end] = [cell, cell + 1].map(|at| self.caster_offsets[at] as usize);
         for caster in &self.caster_entries[start..end] {
             let mut settle = Settle::new(&self.scene, range, *caster, None);
@@ -80,11 +81,11 @@ impl Join<'_> {
             } else {
                 self.receivers.test_run(simd, [from, to], planes, &mut settle).open
             };
-            exact += settle.exact;
+            counts += settle.counts;
             if !open {
                 break;
             }
         }
-        exact
+        counts
     }
 }

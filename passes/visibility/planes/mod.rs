@@ -18,7 +18,8 @@ mod gpu;
 mod tests;
 
 use super::STAGE;
-use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
+use crate::shared::pair_counts::PAIR_COUNTERS;
+use shadowgraph_core::pass::{Contract, Feature, Pass};
 use shadowgraph_core::size::SizeCx;
 
 /// The pass.
@@ -29,11 +30,7 @@ pub static PASS: Pass = Pass {
     source: "Sintorn 2008, section 3.3; Aila, Laine 2004, section 5.1",
     ignores: &["normal", "list_far", "lu", "lu_layout", "bvh_nodes", "bvh_order"],
     params: &[],
-    counters: &[Counter {
-        name: "exact_pairs",
-        doc: "(view-sample, caster) pairs that only exact arithmetic, on a GPU that of two floats, could decide",
-        kind: CounterKind::Info,
-    }],
+    counters: PAIR_COUNTERS,
     contract: Contract::WrongBits(1e-5),
     features: &[Feature::IndirectExecution],
     size,

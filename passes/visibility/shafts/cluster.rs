@@ -3,8 +3,10 @@
 use super::candidates::Candidates;
 use super::groups::{Blocks, Frame, LightBox, Slanted, every, size, tree_len};
 use super::neighbours::Neighbours;
+use super::order::Order;
 use super::own::{OwnPlanes, Owners, Verdict, World};
 use super::patches::{Choice, HELD_BACK, MIXED, Patches, UNKNOWN};
+use super::rays::{Leaves, Seen};
 use super::shaft::{CORNER_ERROR, EDGE_ERROR, PLANE_ERROR, Shaft, TINY, Vector, dot, dot_one, from, load, minus};
 use super::tree::{Casters, Node};
 use super::{LANES, lanes_from};
@@ -21,6 +23,8 @@ pub struct Scene<'a> {
     pub neighbours: &'a Neighbours,
     /// When patches are decided together.
     pub patches: Choice,
+    /// How blocks of view-samples are decided.
+    pub leaves: Leaves,
     /// View-samples.
     pub position: &'a [[f32; 3]],
     /// Triangle of each.
@@ -46,6 +50,10 @@ pub struct Counts {
     pub met: u64,
     /// (caster, leaf) pairs tested segment by segment.
     pub tested: u64,
+    /// Shafts left to rays.
+    pub by_rays: u64,
+    /// (caster, view-sample, block of light samples) tested segment by segment.
+    pub cast: u64,
     /// Segments that the exact predicate decided for one caster.
     pub exact: u64,
 }
@@ -59,6 +67,8 @@ impl Counts {
         self.by_patch += other.by_patch;
         self.met += other.met;
         self.tested += other.tested;
+        self.by_rays += other.by_rays;
+        self.cast += other.cast;
         self.exact += other.exact;
     }
 }
@@ -94,6 +104,8 @@ pub struct Worker {
     pub slanted: Vec<Slanted>,
     /// Boxes of light samples, by node.
     pub boxes: Vec<LightBox>,
+    /// The same of blocks.
+    pub light_boxes: Vec<LightBox>,
     /// Casters that may matter.
     pub list: Candidates,
     /// All casters of the cluster.
@@ -102,9 +114,12 @@ pub struct Worker {
     pub own: OwnPlanes,
     /// Those of groups of view-samples, by node.
     pub owners: Vec<Owners>,
+    /// Casters as one view-sample sees them.
+    pub seen: Seen,
     /// Memory of [`Self::decide_patches`].
     pub patches: Patches,
     stack: Vec<u32>,
+    order: Order,
     /// A bit a light sample of a block, for each view-sample by place and each block.
     pub masks: Vec<u16>,
     /// What was counted.
@@ -124,7 +139,13 @@ impl Worker {
         self.slanted.resize(tree_len(views.last), Slanted::default());
         every(views, &mut |range| self.slanted[range.node] = self.views.slanted(range));
         self.boxes.resize(tree_len(lights.last), LightBox::default());
-        every(lights, &mut |range| self.boxes[range.node] = self.lights.light_box(range));
+        self.light_boxes.resize(lights.last, LightBox::default());
+        every(lights, &mut |range| {
+            self.boxes[range.node] = self.lights.light_box(range);
+            if range.len() == 1 {
+                self.light_boxes[range.first] = self.boxes[range.node];
+            }
+        });
         self.masks.clear();
         self.masks.resize(views.last * LANES * lights.last, 0);
         let owns = self.views.index[..self.views.count].iter().map(|&row| scene.triangle[row as usize]);
@@ -136,7 +157,12 @@ impl Worker {
         self.list.len = 0;
         self.gather(simd, scene);
         if self.list.len > 0 {
-            self.divide(simd, scene, views, lights, 0);
+            let end = self.list.len;
+            simd.vectorize(
+                #[inline(always)]
+                || self.order.push_sorted(simd, &mut self.list),
+            );
+            self.divide(simd, scene, views, lights, end);
         } else {
             self.counts.lit += 1;
         }
@@ -169,12 +195,20 @@ impl Worker {
                 }
             }
         }
-        // What the own triangles let through; the rest leaves the list.
+        simd.vectorize(
+            #[inline(always)]
+            || self.hold_back(simd, scene),
+        );
+    }
+
+    /// Takes what own triangles hold back off the list, and gives the rest their slots.
+    #[inline(always)]
+    fn hold_back<S: Simd>(&mut self, simd: S, scene: &Scene) {
         let mut kept = 0;
         self.patches.clear(scene.world.triangles.len());
         for place in 0..self.list.len {
             let triangle = scene.casters.id[self.list.slot[place] as usize];
-            let verdict = self.own.judge(&scene.world, &self.list, place, triangle);
+            let verdict = self.own.judge(simd, &scene.world, &self.list, place, triangle);
             if verdict == Verdict::Never {
                 self.patches.name(triangle, HELD_BACK);
             } else {

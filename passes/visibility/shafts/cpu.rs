@@ -5,6 +5,7 @@ use super::cluster::{Counts, Scene, Worker};
 use super::neighbours::Neighbours;
 use super::own::World;
 use super::patches::Choice;
+use super::rays::Leaves;
 use super::tree::{Casters, unit_scale};
 use crate::ports;
 use crate::shared::atomic_words::{atomic_zeros, into_words};
@@ -42,6 +43,8 @@ pub struct Receivers<'a> {
     pub image: [usize; 2],
     /// When joined casters are decided together.
     pub patches: Choice,
+    /// How blocks of view-samples are decided.
+    pub leaves: Leaves,
 }
 
 /// Masks `[P, mask_words]`, and what was counted.
@@ -68,6 +71,7 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
         casters: &casters,
         neighbours: &neighbours,
         patches,
+        leaves: receivers.leaves,
         position,
         triangle: receivers.triangle,
         lights: &lights,
@@ -184,6 +188,11 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
             "always" => Choice::Always,
             _ => Choice::Auto,
         },
+        leaves: match cx.params().word("leaves") {
+            "triangles" => Leaves::Triangles,
+            "rays" => Leaves::Rays,
+            _ => Leaves::Auto,
+        },
     };
     if let Some(at) = receivers.light_samples.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
         return Err(Problem::new(Kind::BadValue, "a light sample has no place")
@@ -201,6 +210,8 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     cx.count("patch_shafts", counts.by_patch);
     cx.count("met", counts.met);
     cx.count("tested", counts.tested);
+    cx.count("ray_shafts", counts.by_rays);
+    cx.count("cast", counts.cast);
     cx.count("exact", counts.exact);
     Ok(())
 }

@@ -38,6 +38,15 @@ impl Worker {
                 if views.len() == 1
                     && simd.vectorize(
                         #[inline(always)]
+                        || self.cast(simd, scene, views.first, lights, end),
+                    ) =>
+            {
+                self.counts.by_rays += 1;
+            }
+            Some(_)
+                if views.len() == 1
+                    && simd.vectorize(
+                        #[inline(always)]
                         || self.sift(simd, views.first, lights, end),
                     ) =>
             {
@@ -89,7 +98,7 @@ impl Worker {
                         continue;
                     }
                 }
-                match self.judge_slot(scene, place + lane, views.node) {
+                match self.judge_slot(simd, scene, place + lane, views.node) {
                     Verdict::Plain => mixed ^= bit,
                     Verdict::Never => (mixed, keep) = (mixed ^ bit, keep ^ bit),
                     Verdict::Mixed(_) | Verdict::Open => {}
@@ -106,11 +115,12 @@ impl Worker {
         Some(views_wider)
     }
 
-    fn judge_slot(&mut self, scene: &Scene, place: usize, node: usize) -> Verdict {
+    #[inline(always)]
+    fn judge_slot<S: Simd>(&mut self, simd: S, scene: &Scene, place: usize, node: usize) -> Verdict {
         let slot = self.list.slot[place] as usize;
         if self.slots[slot].verdict == Verdict::Open {
             let triangle = self.slots[slot].triangle;
-            self.slots[slot].verdict = self.own.judge_each(&scene.world, &self.list, place, triangle);
+            self.slots[slot].verdict = self.own.judge_each(simd, &scene.world, &self.list, place, triangle);
         }
         match self.slots[slot].verdict {
             Verdict::Mixed(row) => self.own.judge_for(&self.owners[node], row),

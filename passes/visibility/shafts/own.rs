@@ -5,33 +5,15 @@
 //! settle most casters at once; what is left is looked at plane by plane, in doubt exactly, once for the cluster.
 
 use super::candidates::Candidates;
-use super::groups::{Frame, cross, dot, size};
-use super::shaft::PLANE_ERROR;
-use super::{LANES, MOST_VIEWS};
-use crate::shared::predicate::{Corners, side};
+use super::groups::{Frame, dot, size};
+use super::plane::{ABOVE, BELOW, Plane, Rows};
+use super::{LANES, MOST_VIEWS, lanes_from};
+use crate::shared::predicate::Corners;
+use fearless_simd::Simd;
 use std::collections::HashMap;
 
 /// Planes of a cluster that every caster is held against at once; with more, only where it matters.
 const SOON: usize = 4;
-/// Answers of the exact predicate that a thread keeps at most.
-const MOST_KNOWN: usize = 1 << 18;
-
-/// An own triangle.
-struct Plane {
-    triangle: u32,
-    /// Unit normal, towards the middle of the light, and constant; zero when in doubt.
-    normal: [f32; 3],
-    constant: f32,
-    /// Bound on the error of a height, as a share of the sizes of both points.
-    error: f32,
-    size: f32,
-    /// The side of the world's plane that is above here: 1 or -1.
-    up: i32,
-    /// All light samples are above for certain.
-    lit: bool,
-    /// Sides of all light samples, exactly; made when first asked for.
-    sides: Vec<i8>,
-}
 
 /// What the planes make of a caster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,9 +28,16 @@ pub enum Verdict {
     Open,
 }
 
-/// Whether a caster has corners strictly there.
-const ABOVE: u8 = 1;
-const BELOW: u8 = 2;
+/// For how many light samples a view-sample's own triangle lets a caster through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Admits {
+    /// All.
+    All,
+    /// None.
+    None,
+    /// Those that [`OwnPlanes::allowed_lights`] tells.
+    Some,
+}
 
 /// A set of a cluster's planes, of which there are at most as many as view-samples.
 type Set = [u64; MOST_VIEWS / 64];
@@ -80,6 +69,15 @@ fn put(set: &mut Set, at: usize) {
     set[at / 64] |= 1 << (at % 64);
 }
 
+/// Sixteen of a set.
+fn part(set: &Set, first: usize) -> u16 {
+    (set[first / 64] >> (first % 64)) as u16
+}
+
+fn put_part(set: &mut Set, first: usize, part: u16) {
+    set[first / 64] |= u64::from(part) << (first % 64);
+}
+
 fn is_within(small: &Set, large: &Set) -> bool {
     (0..small.len()).all(|word| small[word] & !large[word] == 0)
 }
@@ -88,6 +86,10 @@ fn is_within(small: &Set, large: &Set) -> bool {
 #[derive(Default)]
 pub struct OwnPlanes {
     planes: Vec<Plane>,
+    by_lanes: Rows,
+    /// Planes that all light samples are above of for certain, and those that are certain.
+    all_lit: Set,
+    all_certain: Set,
     /// Plane of each view-sample, by place; `NONE` when it lies on no triangle.
     of_view: Vec<u16>,
     rows: Vec<Row>,
@@ -150,6 +152,7 @@ impl OwnPlanes {
             }
             self.of_view.push(last.1);
         }
+        self.fill_lanes();
         self.complete = !self.of_view.contains(&NONE);
         self.certain = self.planes.iter().all(|plane| plane.normal != [0.0; 3]);
         self.lit = self.planes.iter().all(|plane| plane.lit);
@@ -166,14 +169,28 @@ impl OwnPlanes {
         }
     }
 
+    fn fill_lanes(&mut self) {
+        self.by_lanes.fill(&self.planes);
+        (self.all_lit, self.all_certain) = (Set::default(), Set::default());
+        for (at, plane) in self.planes.iter().enumerate() {
+            if plane.lit {
+                put(&mut self.all_lit, at);
+            }
+            if plane.normal != [0.0; 3] {
+                put(&mut self.all_certain, at);
+            }
+        }
+    }
+
     /// What they make of the caster at `place` of `list`, which is triangle `id`, as far as it is told soon.
-    pub fn judge(&mut self, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
+    #[inline(always)]
+    pub fn judge<S: Simd>(&mut self, simd: S, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
         if self.planes.is_empty() {
             return Verdict::Plain;
         }
         let (corners, reach) = corners_of(list, place);
         if self.certain {
-            let heights = corners.map(|corner| dot(self.mean, corner));
+            let heights = [dot(self.mean, corners[0]), dot(self.mean, corners[1]), dot(self.mean, corners[2])];
             let (low, high) = (heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2]));
             let room = self.spread * reach + self.error * (reach + self.size);
             let above = high - room + self.constant[0] > 0.0;
@@ -185,34 +202,38 @@ impl OwnPlanes {
                 return Verdict::Never;
             }
         }
-        if self.planes.len() <= SOON { self.judge_each(world, list, place, id) } else { Verdict::Open }
+        if self.planes.len() <= SOON { self.judge_each(simd, world, list, place, id) } else { Verdict::Open }
     }
 
-    /// The same, plane by plane.
-    pub fn judge_each(&mut self, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
+    /// The same, sixteen planes at once.
+    #[inline(always)]
+    pub fn judge_each<S: Simd>(&mut self, simd: S, world: &World, list: &Candidates, place: usize, id: u32) -> Verdict {
         let (corners, reach) = corners_of(list, place);
         let mut row = Row::default();
         let (mut plain, mut never) = (true, self.complete);
-        for (at, plane) in self.planes.iter().enumerate() {
-            let is_mine = plane.triangle == id;
-            let bits = if is_mine { 0 } else { plane.corners(world, &mut self.known, &corners, reach, id) };
-            let (above, below) = (bits & ABOVE != 0, bits & BELOW != 0);
-            if above {
-                put(&mut row.above, at);
+        for first in (0..self.planes.len()).step_by(LANES) {
+            let lanes = lanes_from(self.planes.len() - first);
+            let seen = self.by_lanes.heights(simd, &corners, reach, id, first);
+            let (lit, certain) = (part(&self.all_lit, first), part(&self.all_certain, first));
+            let (mut above, mut below) = (seen.above & !seen.mine & lanes, seen.below & !seen.mine & lanes);
+            let told = certain & (above | seen.not_above) & (below | seen.not_below | lit);
+            let mut doubt = lanes & !told & !seen.mine;
+            while doubt != 0 {
+                let lane = doubt.trailing_zeros() as usize;
+                let bit = 1 << lane;
+                doubt ^= bit;
+                let bits = self.planes[first + lane].corners(world, &mut self.known, id);
+                above = if bits & ABOVE != 0 { above | bit } else { above & !bit };
+                below = if bits & BELOW != 0 { below | bit } else { below & !bit };
             }
-            if below {
-                put(&mut row.below, at);
-            }
-            if above && (plane.lit || below) {
-                put(&mut row.plain, at);
-            } else {
-                plain = false;
-            }
-            if is_mine || (plane.lit && !above) {
-                put(&mut row.never, at);
-            } else {
-                never = false;
-            }
+            let lets = above & (lit | below);
+            let holds = (seen.mine | (lit & !above)) & lanes;
+            put_part(&mut row.above, first, above);
+            put_part(&mut row.below, first, below);
+            put_part(&mut row.plain, first, lets);
+            put_part(&mut row.never, first, holds);
+            plain &= lets == lanes;
+            never &= holds & !lets == lanes;
         }
         if plain {
             return Verdict::Plain;
@@ -262,6 +283,35 @@ impl OwnPlanes {
         possible
     }
 
+    /// What view-sample `view` makes of the caster of `row`.
+    #[inline]
+    pub fn admits(&self, row: u32, view: usize) -> Admits {
+        let (at, row) = (self.of_view[view], &self.rows[row as usize]);
+        if at == NONE || has(&row.plain, at) {
+            Admits::All
+        } else if has(&row.never, at) {
+            Admits::None
+        } else {
+            Admits::Some
+        }
+    }
+
+    /// Those of sixteen light samples for which view-sample `view`, which admits some, lets the caster of `row` through.
+    /// `order`: light samples by place.
+    pub fn allowed_lights(&mut self, world: &World, row: u32, view: usize, order: &[u32]) -> u16 {
+        let (at, row) = (self.of_view[view], &self.rows[row as usize]);
+        let (above, below) = (has(&row.above, at), has(&row.below, at));
+        let sides = self.planes[usize::from(at)].sides(world);
+        order.iter().enumerate().fold(0, |allowed, (lane, light)| {
+            let admits = match sides[*light as usize] {
+                0 => true,
+                1 => above,
+                _ => below,
+            };
+            allowed | u16::from(admits) << lane
+        })
+    }
+
     /// For each of sixteen light samples, a bit for each of sixteen view-samples that lets the caster of `row` through.
     /// `views`: first place; `order`: light samples by place.
     pub fn allowed(&mut self, world: &World, row: u32, views: usize, order: &[u32]) -> [u16; LANES] {
@@ -300,82 +350,4 @@ impl OwnPlanes {
 fn corners_of(list: &Candidates, place: usize) -> ([[f32; 3]; 3], f32) {
     let [a, g, h] = list.caster(place);
     ([a, [0, 1, 2].map(|k| a[k] + g[k]), [0, 1, 2].map(|k| a[k] + h[k])], size(a) + size(g) + size(h))
-}
-
-impl Plane {
-    fn new(triangle: u32, corners: &Corners, world: &World, frame: &Frame, light: ([f32; 3], [f32; 3])) -> Self {
-        let units = corners.map(|p| world.unit(p));
-        let origin = frame.point(units[0]);
-        let [g, h] = [1, 2].map(|k| frame.turn([0, 1, 2].map(|axis| units[k][axis] - units[0][axis])));
-        let normal = cross(g, h);
-        let length = dot(normal, normal).sqrt();
-        let share = size(g) * size(h) / length;
-        let mut plane = Self {
-            triangle,
-            normal: [0.0; 3],
-            constant: 0.0,
-            error: PLANE_ERROR * share,
-            size: size(origin) + size(g) + size(h),
-            up: 1,
-            lit: false,
-            sides: Vec::new(),
-        };
-        if !(share < 1e4 && length > 1e-30) {
-            return plane;
-        }
-        let middle = [0, 1, 2].map(|k| 0.5 * (light.0[k] + light.1[k]));
-        let half = [0, 1, 2].map(|k| 0.5 * (light.1[k] - light.0[k]));
-        let unit = normal.map(|x| x / length);
-        let height = dot(unit, middle) - dot(unit, origin);
-        let turn = if height < 0.0 { -1.0 } else { 1.0 };
-        plane.normal = unit.map(|x| turn * x);
-        plane.constant = -dot(plane.normal, origin);
-        // orient3d is positive below a triangle that turns counter-clockwise seen from above.
-        plane.up = if height < 0.0 { 1 } else { -1 };
-        let spread = unit[0].abs() * half[0] + unit[1].abs() * half[1] + unit[2].abs() * half[2];
-        plane.lit = height.abs() - spread > plane.error * (size(middle) + size(half) + plane.size);
-        plane
-    }
-
-    /// Which sides of the plane the caster has corners on.
-    fn corners(&self, world: &World, known: &mut HashMap<u64, u8>, corners: &[[f32; 3]; 3], reach: f32, id: u32) -> u8 {
-        if self.normal != [0.0; 3] {
-            let heights = corners.map(|corner| dot(self.normal, corner) + self.constant);
-            let room = self.error * (reach + self.size);
-            let (above, below) = (heights.iter().any(|x| *x > room), heights.iter().any(|x| *x < -room));
-            let (not_above, not_below) = (heights.iter().all(|x| *x < -room), heights.iter().all(|x| *x > room));
-            if (above || not_above) && (below || not_below || self.lit) {
-                return if above { ABOVE } else { 0 } | if below { BELOW } else { 0 };
-            }
-        }
-        let key = u64::from(self.triangle) << 32 | u64::from(id);
-        let (up, down) = if let Some(known) = known.get(&key) {
-            (known & ABOVE, known & BELOW)
-        } else {
-            if known.len() >= MOST_KNOWN {
-                known.clear();
-            }
-            let own = &world.triangles[self.triangle as usize];
-            let sides =
-                world.triangles[id as usize].map(|corner| if own.contains(&corner) { 0 } else { side(own, corner) });
-            let bits = sides.iter().fold(0, |bits, side| match side {
-                1 => bits | ABOVE,
-                -1 => bits | BELOW,
-                _ => bits,
-            });
-            known.insert(key, bits);
-            (bits & ABOVE, bits & BELOW)
-        };
-        // What is known is about the plane as the predicate turns it.
-        if self.up > 0 { up | down } else { (up << 1) | (down >> 1) }
-    }
-
-    /// 1 above, -1 below, 0 in the plane, for every light sample.
-    fn sides(&mut self, world: &World) -> &[i8] {
-        if self.sides.is_empty() {
-            let own = &world.triangles[self.triangle as usize];
-            self.sides.extend(world.lights.iter().map(|light| (side(own, *light) * self.up) as i8));
-        }
-        &self.sides
-    }
 }

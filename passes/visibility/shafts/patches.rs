@@ -29,10 +29,10 @@ pub enum Choice {
     Off,
 }
 
-/// What joining a candidate costs is 1; what a candidate less saves in each smallest part of the shaft.
-const GAIN: i64 = 8;
+/// What joining a candidate costs is 1; what a candidate less saves at each halving of the shaft.
+const GAIN: i64 = 1;
 /// Candidates that a cluster may join, as a multiple of all it has, before the first gain.
-const TRIAL: usize = 4;
+const TRIAL: usize = 1;
 
 /// The candidate's flags: edges that some segment may meet, then its facing.
 pub const EDGES: u32 = 0b111;
@@ -117,7 +117,8 @@ impl Worker {
         lights: Range,
         start: usize,
     ) -> bool {
-        let (count, parts) = ((self.list.len - start) as i64, (views.len() * lights.len()) as i64);
+        let (count, parts) = ((self.list.len - start) as i64, views.len() * lights.len());
+        let gain = GAIN * (1 + i64::from(parts.ilog2()));
         if scene.patches == Choice::Auto && self.patches.credit < 0 {
             return false;
         }
@@ -148,7 +149,7 @@ impl Worker {
                 }
                 if answer.covers >> lane & 1 == 1 || self.is_met(scene, at, view, light) {
                     self.counts.by_patch += 1;
-                    self.patches.credit += GAIN * count * parts;
+                    self.patches.credit += gain * count;
                     return true;
                 }
             }
@@ -163,7 +164,7 @@ impl Worker {
                 kept += 1;
             }
         }
-        self.patches.credit += GAIN * (end - kept) as i64 * parts;
+        self.patches.credit += gain * (end - kept) as i64;
         self.list.len = kept;
         false
     }
