@@ -37,11 +37,14 @@ impl<'r> Grid<'r> {
     }
 }
 
-/// Three digits, powers of ten only where they say more.
+/// Four decimals, powers of ten only where they say more.
 pub fn number(value: f64) -> String {
     match value {
         0.0 => "0".into(),
-        value if value >= 0.001 => format!("{value:.3}").trim_start_matches('0').into(),
+        value if value >= 0.0005 => {
+            let text = format!("{value:.4}");
+            text.trim_start_matches('0').trim_end_matches('0').trim_end_matches('.').into()
+        }
         value => format!("{value:.0e}"),
     }
 }
@@ -168,4 +171,15 @@ fn notes(records: &[&Stability]) -> String {
 pub fn is_accepted(records: &[&Stability]) -> bool {
     let holds = |record: &&&Stability| record.expected != Expected::MustHold || record.verdict == Verdict::Holds;
     records.iter().all(|record| holds(&record))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_none_reads_as_nothing() {
+        let shown = [0.0, 1.0, 0.0157, 0.25, 3e-4, 3.6e-6, 12.5].map(number);
+        assert_eq!(shown, ["0", "1", ".0157", ".25", "3e-4", "4e-6", "12.5"]);
+    }
 }

@@ -84,6 +84,18 @@ pub fn unit_scale(largest: f32) -> f32 {
     f32::from_bits((254 - (largest.to_bits() >> 23 & 0xff).min(253)) << 23)
 }
 
+/// Reciprocal of one end of the cone on one axis, of a size that f32 can hold. An end of zero is on the side of the other end: to
+/// rays that go back or stay, what lies ahead is infinitely far, not infinitely far behind.
+#[inline(always)]
+fn slowness([smallest, largest]: [[f32; 3]; 2], end: usize, axis: usize) -> f32 {
+    let x = if end == 0 { smallest[axis] } else { largest[axis] };
+    if x.abs() >= 1e-37 {
+        return 1.0 / x;
+    }
+    let goes_back = if x == 0.0 { smallest[axis] < 0.0 } else { x < 0.0 };
+    if goes_back { -1e37 } else { 1e37 }
+}
+
 impl Packet {
     /// A packet of no rays.
     pub fn new() -> Self {
@@ -120,9 +132,8 @@ impl Packet {
         for word in 0..RAYS / 32 {
             self.open[word] = self.all(word);
         }
-        let reciprocal = |x: f32| 1.0 / if x.abs() < 1e-37 { 1e-37 } else { x };
         self.cone = [low.to_array(), high.to_array()];
-        self.inverse = self.cone.map(|end| end.map(reciprocal));
+        self.inverse = [0, 1].map(|end| [0, 1, 2].map(|axis| slowness(self.cone, end, axis)));
         self.middle = 0.5 * (low * self.scale + high * self.scale);
         self.half = 0.5 * (high * self.scale - low * self.scale);
         true

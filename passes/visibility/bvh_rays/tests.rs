@@ -173,3 +173,21 @@ fn the_scale_of_a_packet_is_a_power_of_two_for_every_float() {
     }
     assert_eq!([unit_scale(1.0), unit_scale(3.0), unit_scale(0.3)], [1.0, 0.5, 4.0]);
 }
+
+#[test]
+fn rays_of_a_cone_that_ends_straight_up_are_not_lost() {
+    // The light's box ends where the view-sample is, on one axis or both, from either side.
+    let sheet: Vec<Corners> = (0..64)
+        .map(|id| {
+            let (x, z) = ((id % 8) as f32 - 4.0, (id / 8) as f32 - 4.0);
+            [[x, 1.0, z], [x + 2.5, 1.0, z], [x, 1.0, z + 2.5]]
+        })
+        .collect();
+    let casts = vec![1; sheet.len()];
+    for (x, z) in [(-0.5f32, -0.25f32), (0.5, 0.25), (-0.5, 0.0), (0.0, 0.5), (-1e-40, -1e-40), (1e-40, 0.5)] {
+        let lights = [[0.0, 2.0, 0.0], [x, 2.0, z], [x, 2.0, 0.0], [0.0, 2.0, z]];
+        let answer = |lights: &[[f32; 3]]| answer(&sheet, &casts, lights, &[[0.0; 3]], &[NO_TRIANGLE], &[KEPT])[0];
+        let alone: u32 = lights.iter().enumerate().map(|(bit, light)| answer(&[*light]) << bit).sum();
+        assert_eq!((answer(&lights), alone), (0b1111, 0b1111), "{x} {z}");
+    }
+}
