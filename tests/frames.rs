@@ -1,6 +1,7 @@
 //! Means over frames against the converged answer.
 
-use crate::bench::{render_args, soft_job};
+use crate::bench::{job, render_args, soft_job};
+use crate::gpu;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::BackendChoice;
 use shadowgraph::converged::converged;
@@ -16,6 +17,7 @@ use shadowgraph_graph::Keep;
 pub fn trials() -> Vec<Trial> {
     vec![
         Trial::test("frames/the_error_falls_as_frames_come", falls),
+        gpu::trial("frames/repeated_on_a_device_each_has_its_time".into(), |_| each_has_its_time()),
         Trial::test("frames/a_moved_camera_or_light_begins_anew", begins_anew),
     ]
 }
@@ -24,6 +26,20 @@ fn plan(job: &Job) -> Result<Plan, Failed> {
     let (choice, catalogue) = (render_args(&["soft"]).graph, shadowgraph_passes::catalogue());
     graph_choice::plan(&choice, &catalogue, Some(&job.facts), Backend::Cpu, Keep::AllLivePorts)
         .map_err(|problems| problems.to_string().into())
+}
+
+/// Medians without a spread would hide what they are of.
+fn each_has_its_time() -> Result<(), Failed> {
+    let text = |problem: shadowgraph_core::problem::Problem| Failed::from(problem.to_string());
+    let (job, machine) = (job("builtin:columns", "16x16"), Machine::new(BackendChoice::Wgpu).map_err(text)?);
+    let (choice, catalogue) = (render_args(&["hard"]).graph, shadowgraph_passes::catalogue());
+    let plan = graph_choice::plan(&choice, &catalogue, Some(&job.facts), Backend::Wgpu, Keep::OutputsOnly)
+        .map_err(|problems| problems.to_string())?;
+    let outcome = machine.run(&plan, &job, 5, &quiet).map_err(text)?;
+    assert_eq!((outcome.runs_count, outcome.frames_millis.len()), (5, 5));
+    assert!(outcome.nodes.iter().all(|node| node.millis.len() == 5), "{:?}", outcome.nodes);
+    assert!(plan.outputs.iter().all(|(_, slot)| outcome.values.try_get(*slot).is_some()));
+    Ok(())
 }
 
 fn quiet(_: &str, _: u64, _: u64) {}

@@ -183,7 +183,9 @@ impl Frame {
 
     /// Takes a stretch in.
     pub fn add(&mut self, plan: &Plan, millis: f64, runs: Vec<Ran>) {
-        let from = self.millis;
+        // The readings of nodes with a submission each reach past the sum of their times, by what lies between them.
+        let end = |reading: &Reading| if let Reading::Span { end, .. } = reading { *end } else { 0.0 };
+        let from = self.pieces.iter().map(|(_, reading)| end(reading)).fold(self.millis, f64::max);
         self.millis += millis;
         for run in runs {
             self.pieces.push((run.node, run.reading.later(from)));

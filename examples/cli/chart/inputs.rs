@@ -88,8 +88,8 @@ impl Truths {
     /// # Errors
     /// As [`Machine::run`].
     pub fn reference(&mut self, light_samples: u32, jobs: &mut Jobs, how: &How) -> Result<Answers, Problems> {
-        let set = light_samples.min(MOST_OF_SET);
-        if jobs.get(set)?.light.radius == 0.0 {
+        let light = jobs.get(light_samples.min(MOST_OF_SET))?.light;
+        if !shadowgraph_scenes::lights::has_extent(&light) {
             return self.about(1, jobs, how);
         }
         if light_samples <= MOST_OF_SET {

@@ -9,6 +9,7 @@ use crate::graph_choice;
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::record::RunRecord;
+use crate::stretch::{Frame, Ran};
 use clap::Parser;
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -250,8 +251,26 @@ impl std::io::Write for Seen {
     }
 }
 
-/// What a host's subscriber sees of a run.
-fn spans_of(choice: BackendChoice) -> String {
+/// Nodes of a device that the host times one by one have gaps between them, which their sum has not.
+#[test]
+fn stretches_come_one_after_another() {
+    let ran = |node, begin, end| Ran {
+        node,
+        millis: Some(end - begin),
+        reading: Reading::of(begin, end),
+        bytes: 0,
+        clock: "",
+        counts: Vec::new(),
+    };
+    let plan = plan_on(BackendChoice::Cpu).0;
+    let mut frame = Frame::new(&plan);
+    frame.add(&plan, 3.0, vec![ran(0, 0.0, 1.0), ran(1, 2.0, 4.0)]);
+    frame.add(&plan, 1.0, vec![ran(2, 0.0, 1.0)]);
+    assert_eq!((frame.millis, frame.pieces[2]), (4.0, (2, Reading::of(4.0, 5.0))));
+}
+
+/// A plan on one backend, with its job and machine.
+fn plan_on(choice: BackendChoice) -> (Plan, Job, Machine) {
     let Command::Render(args) =
         Cli::parse_from(["x", "render", "hard", "--scene", "builtin:one-triangle", "--size", "8x8"]).command
     else {
@@ -259,9 +278,14 @@ fn spans_of(choice: BackendChoice) -> String {
     };
     let (job, machine) = (Job::load(&args.scene).unwrap(), Machine::new(choice).unwrap());
     let catalogue = shadowgraph_passes::catalogue();
-    let plan =
-        graph_choice::plan(&args.graph, &catalogue, Some(&job.facts), machine.default_backend, Keep::OutputsOnly)
-            .unwrap();
+    let facts = Some(&job.facts);
+    let plan = graph_choice::plan(&args.graph, &catalogue, facts, machine.default_backend, Keep::OutputsOnly).unwrap();
+    (plan, job, machine)
+}
+
+/// What a host's subscriber sees of a run.
+fn spans_of(choice: BackendChoice) -> String {
+    let (plan, job, machine) = plan_on(choice);
     let seen = Arc::new(Mutex::new(Vec::new()));
     let subscriber = tracing_subscriber::fmt()
         .with_ansi(false)

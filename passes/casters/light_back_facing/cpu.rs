@@ -25,7 +25,7 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let samples = cx.input(input::LIGHT_SAMPLES.name).as_vec3();
     let state = |(corners, flags): (&Corners, &u32)| u32::from(casts(corners, *flags, samples));
     let states: Vec<u32> = triangles.par_iter().zip(flags).with_min_len(CHUNK).map(state).collect();
-    cx.count("culled", states.par_iter().with_min_len(CHUNK).filter(|state| **state == 0).count() as u64);
+    cx.count("culled", states.len() as u64 - states.iter().map(|state| u64::from(*state)).sum::<u64>());
     cx.put(ports::CASTER_STATE.name, Array::u32([states.len()], states));
     Ok(())
 }

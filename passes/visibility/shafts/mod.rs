@@ -14,7 +14,8 @@
 //!    triangles hold back (`own`);
 //! 3. `divide`: sixteen casters at once are certainly beside a shaft, certainly across all of it, or stay open (`shaft`); joined casters
 //!    without a border inside are decided by one segment (`patches`); what stays open goes to the halves of the wider group;
-//! 4. sixteen view-samples against sixteen light samples, segment by segment (`leaf`).
+//! 4. sixteen view-samples go on alone: by ray packets, view-sample by view-sample (`rays`), or, where the first one's packets cost more than
+//!    is expected of that, down to sixteen light samples, segment by segment (`leaf`).
 //!
 //! All of it is in f32 with bounds on rounding; what is in doubt goes to the predicate.
 //!
@@ -27,9 +28,14 @@
 //!   view-sample's cone meets. Looking once, view-sample by view-sample, takes a fifth off;
 //! - own triangles asked about for each group instead of once for the cluster: a third less where tiles hold many of them;
 //! - bounds on rounding by lengths instead of sums of coordinates: two thirds of the exact pairs and a sixth of the time less;
-//! - patches on Sponza cost what they save, on closed fine meshes they save most of the umbra; on hair the search was a third of
-//!   the work, hence their account.
-//! - What is left: the leaves hold hundreds of small triangles where many layers of fine geometry overlap.
+//! - a plane of equal x, y or z is asked by a comparison where floors and walls made the exact predicate's longest way common, and own planes
+//!   are asked sixteen at once: a third of the apartment's time, a sixth of Sponza's;
+//! - a tree and neighbours made for this pass, not for rays: 45 ms instead of 210 on the apartment;
+//! - casters sorted by what they hide, once for the cluster: half of the apartment's pairs at the leaves; the wrong order costs ten times as many;
+//! - once all that was done, joining casters into patches cost as much as it saved on all but closed fine meshes (a quarter on the bunny seen
+//!   from near): what a patch saves is counted by halvings of its shaft, not by parts;
+//! - ray packets instead of the leaves' triangles: a quarter off hair and Sponza, a third off the apartment overview. They were expected
+//!   to take half; what is left is the search for the few casters in the way of each view-sample, and on coarse meshes packets lose.
 
 mod candidates;
 mod cluster;
@@ -41,6 +47,7 @@ mod neighbours;
 mod order;
 mod own;
 mod patches;
+mod plane;
 mod rays;
 mod shaft;
 mod splits;

@@ -5,72 +5,15 @@
 //! settle most casters at once; what is left is looked at plane by plane, in doubt exactly, once for the cluster.
 
 use super::candidates::Candidates;
-use super::groups::{Frame, cross, dot, size};
-use super::shaft::{PLANE_ERROR, dot_one, load};
+use super::groups::{Frame, dot, size};
+use super::plane::{ABOVE, BELOW, Plane, Rows};
 use super::{LANES, MOST_VIEWS, lanes_from};
-use crate::shared::predicate::{Corners, side};
-use fearless_simd::{Simd, SimdBase, SimdMask, u32x16};
+use crate::shared::predicate::Corners;
+use fearless_simd::Simd;
 use std::collections::HashMap;
 
 /// Planes of a cluster that every caster is held against at once; with more, only where it matters.
 const SOON: usize = 4;
-/// Answers of the exact predicate that a thread keeps at most.
-const MOST_KNOWN: usize = 1 << 18;
-
-/// An own triangle.
-struct Plane {
-    triangle: u32,
-    /// Unit normal, towards the middle of the light, and constant; zero when in doubt.
-    normal: [f32; 3],
-    constant: f32,
-    /// Bound on the error of a height, as a share of the sizes of both points.
-    error: f32,
-    size: f32,
-    /// The side of the world's plane that is above here: 1 or -1.
-    up: i32,
-    /// All light samples are above for certain.
-    lit: bool,
-    /// Where the world's plane is one of equal x, y or z.
-    level: Option<Level>,
-    /// Sides of all light samples, exactly; made when first asked for.
-    sides: Vec<i8>,
-}
-
-/// A plane `p[axis] = at`: on which side a point is needs a comparison. Floors and walls often are such, and others level with them.
-#[derive(Clone, Copy, Debug)]
-struct Level {
-    axis: usize,
-    at: f32,
-    /// The side beyond: 1, -1, or 0 for a degenerate triangle.
-    beyond: i32,
-}
-
-impl Level {
-    fn of(corners: &Corners) -> Option<Self> {
-        let axis = (0..3).find(|&axis| corners.iter().all(|corner| corner[axis] == corners[0][axis]))?;
-        let at = corners[0][axis];
-        // The side is linear in the distance: one point off the plane tells its sign.
-        let mut off = corners[0];
-        off[axis] = if at > 0.0 { at.next_down() } else { at.next_up() };
-        let beyond = side(corners, off) * if at > 0.0 { -1 } else { 1 };
-        Some(Self { axis, at, beyond })
-    }
-
-    /// As [`side`].
-    fn side(&self, point: [f32; 3]) -> i32 {
-        let x = point[self.axis];
-        self.beyond * (i32::from(x > self.at) - i32::from(x < self.at))
-    }
-}
-
-/// Planes by lanes.
-#[derive(Default)]
-struct Rows {
-    /// Normal, constant, error, size.
-    of: [Vec<f32>; 6],
-    /// The triangle of each.
-    triangle: Vec<u32>,
-}
 
 /// What the planes make of a caster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,10 +38,6 @@ pub enum Admits {
     /// Those that [`OwnPlanes::allowed_lights`] tells.
     Some,
 }
-
-/// Whether a caster has corners strictly there.
-const ABOVE: u8 = 1;
-const BELOW: u8 = 2;
 
 /// A set of a cluster's planes, of which there are at most as many as view-samples.
 type Set = [u64; MOST_VIEWS / 64];
@@ -231,18 +170,9 @@ impl OwnPlanes {
     }
 
     fn fill_lanes(&mut self) {
-        let padded = self.planes.len().next_multiple_of(LANES);
-        for row in &mut self.by_lanes.of {
-            row.clear();
-        }
-        self.by_lanes.triangle.clear();
+        self.by_lanes.fill(&self.planes);
         (self.all_lit, self.all_certain) = (Set::default(), Set::default());
         for (at, plane) in self.planes.iter().enumerate() {
-            let [x, y, z] = plane.normal;
-            for (row, value) in self.by_lanes.of.iter_mut().zip([x, y, z, plane.constant, plane.error, plane.size]) {
-                row.push(value);
-            }
-            self.by_lanes.triangle.push(plane.triangle);
             if plane.lit {
                 put(&mut self.all_lit, at);
             }
@@ -250,10 +180,6 @@ impl OwnPlanes {
                 put(&mut self.all_certain, at);
             }
         }
-        for row in &mut self.by_lanes.of {
-            row.resize(padded, 0.0);
-        }
-        self.by_lanes.triangle.resize(padded, u32::MAX);
     }
 
     /// What they make of the caster at `place` of `list`, which is triangle `id`, as far as it is told soon.
@@ -424,122 +350,4 @@ impl OwnPlanes {
 fn corners_of(list: &Candidates, place: usize) -> ([[f32; 3]; 3], f32) {
     let [a, g, h] = list.caster(place);
     ([a, [0, 1, 2].map(|k| a[k] + g[k]), [0, 1, 2].map(|k| a[k] + h[k])], size(a) + size(g) + size(h))
-}
-
-/// What sixteen planes see of a caster's corners for certain, a bit each.
-struct Seen {
-    /// One above.
-    above: u16,
-    /// One below.
-    below: u16,
-    /// All below.
-    not_above: u16,
-    /// All above.
-    not_below: u16,
-    /// It is the plane's own triangle.
-    mine: u16,
-}
-
-impl Rows {
-    /// Planes `first..first + 16`.
-    #[inline(always)]
-    fn heights<S: Simd>(&self, simd: S, corners: &[[f32; 3]; 3], reach: f32, id: u32, first: usize) -> Seen {
-        let [x, y, z, constant, error, size] = &self.of;
-        let normal = [load(simd, x, first), load(simd, y, first), load(simd, z, first)];
-        let constant = load(simd, constant, first);
-        let room = load(simd, error, first) * (load(simd, size, first) + reach);
-        let heights = [
-            dot_one(corners[0], normal) + constant,
-            dot_one(corners[1], normal) + constant,
-            dot_one(corners[2], normal) + constant,
-        ];
-        let low = heights[0].min(heights[1]).min(heights[2]);
-        let high = heights[0].max(heights[1]).max(heights[2]);
-        let triangles = u32x16::from_slice(simd, &self.triangle[first..first + LANES]);
-        Seen {
-            above: high.simd_gt(room).to_bitmask() as u16,
-            below: (low + room).simd_lt(0.0).to_bitmask() as u16,
-            not_above: (high + room).simd_lt(0.0).to_bitmask() as u16,
-            not_below: low.simd_gt(room).to_bitmask() as u16,
-            mine: triangles.simd_eq(id).to_bitmask() as u16,
-        }
-    }
-}
-
-impl Plane {
-    fn new(triangle: u32, corners: &Corners, world: &World, frame: &Frame, light: ([f32; 3], [f32; 3])) -> Self {
-        let units = corners.map(|p| world.unit(p));
-        let origin = frame.point(units[0]);
-        let [g, h] = [1, 2].map(|k| frame.turn([0, 1, 2].map(|axis| units[k][axis] - units[0][axis])));
-        let normal = cross(g, h);
-        let length = dot(normal, normal).sqrt();
-        let share = size(g) * size(h) / length;
-        let mut plane = Self {
-            triangle,
-            normal: [0.0; 3],
-            constant: 0.0,
-            error: PLANE_ERROR * share,
-            size: size(origin) + size(g) + size(h),
-            up: 1,
-            lit: false,
-            level: Level::of(corners),
-            sides: Vec::new(),
-        };
-        if !(share < 1e4 && length > 1e-30) {
-            return plane;
-        }
-        let middle = [0, 1, 2].map(|k| 0.5 * (light.0[k] + light.1[k]));
-        let half = [0, 1, 2].map(|k| 0.5 * (light.1[k] - light.0[k]));
-        let unit = normal.map(|x| x / length);
-        let height = dot(unit, middle) - dot(unit, origin);
-        let turn = if height < 0.0 { -1.0 } else { 1.0 };
-        plane.normal = unit.map(|x| turn * x);
-        plane.constant = -dot(plane.normal, origin);
-        // orient3d is positive below a triangle that turns counter-clockwise seen from above.
-        plane.up = if height < 0.0 { 1 } else { -1 };
-        let spread = unit[0].abs() * half[0] + unit[1].abs() * half[1] + unit[2].abs() * half[2];
-        plane.lit = height.abs() - spread > plane.error * (size(middle) + size(half) + plane.size);
-        plane
-    }
-
-    /// Which sides of the plane the caster has corners on, exactly.
-    fn corners(&self, world: &World, known: &mut HashMap<u64, u8>, id: u32) -> u8 {
-        let sides_of = |side: &dyn Fn([f32; 3]) -> i32| {
-            world.triangles[id as usize].iter().fold(0, |bits, corner| match side(*corner) {
-                1 => bits | ABOVE,
-                -1 => bits | BELOW,
-                _ => bits,
-            })
-        };
-        let bits = if let Some(level) = self.level {
-            sides_of(&|corner| level.side(corner))
-        } else {
-            let key = u64::from(self.triangle) << 32 | u64::from(id);
-            if let Some(bits) = known.get(&key) {
-                *bits
-            } else {
-                if known.len() >= MOST_KNOWN {
-                    known.clear();
-                }
-                let own = &world.triangles[self.triangle as usize];
-                let bits = sides_of(&|corner| if own.contains(&corner) { 0 } else { side(own, corner) });
-                known.insert(key, bits);
-                bits
-            }
-        };
-        let (up, down) = (bits & ABOVE, bits & BELOW);
-        // What is known is about the plane as the predicate turns it.
-        if self.up > 0 { up | down } else { (up << 1) | (down >> 1) }
-    }
-
-    /// 1 above, -1 below, 0 in the plane, for every light sample.
-    fn sides(&mut self, world: &World) -> &[i8] {
-        if self.sides.is_empty() {
-            let own = &world.triangles[self.triangle as usize];
-            let (level, up) = (self.level, self.up);
-            let side_of = |light: [f32; 3]| level.map_or_else(|| side(own, light), |level| level.side(light));
-            self.sides.extend(world.lights.iter().map(|light| (side_of(*light) * up) as i8));
-        }
-        &self.sides
-    }
 }

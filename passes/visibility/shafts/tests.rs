@@ -1,3 +1,5 @@
+mod borders;
+
 use super::cpu::{Receivers, answer};
 use super::patches::Choice;
 use super::rays::Leaves;
@@ -369,42 +371,4 @@ fn many_equal_triangles_build_in_time_and_agree() {
         leaves: Leaves::Auto,
     };
     assert_eq!(answer(scene, Level::new(), &|_, _| {}).0, [1, 0]);
-}
-
-/// The twelve triangles of a box, seen from outside, each side divided along its diagonal.
-fn sides(low: [f32; 3], high: [f32; 3]) -> Vec<Corners> {
-    let corner = |bits: usize| [0, 1, 2].map(|k| if bits >> k & 1 == 1 { high[k] } else { low[k] });
-    [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
-        .into_iter()
-        .flat_map(|[a, b, c, d]| [[corner(a), corner(b), corner(c)], [corner(a), corner(c), corner(d)]])
-        .collect()
-}
-
-#[test]
-fn view_samples_on_a_box_and_in_it_are_not_decided_by_one_segment() {
-    // From inside, the far side blocks the light; from the top, whose triangles are own or level with it, nothing does: one segment
-    // must not speak for both kinds.
-    for seed in 0..24 {
-        let mut random = Random(400 + seed);
-        let high = [0.6 + 0.3 * random.next(), 0.2 + 0.5 * random.next(), 0.9];
-        let triangles = [vec![], sides([-0.8, -1.0, -0.9], high)].concat();
-        let light = [9.0, high[1] + 0.5 + random.next(), 0.2];
-        let light_samples = random.light(64, light, 0.6);
-        let top = (0..12).filter(|id| triangles[*id as usize].iter().all(|corner| corner[1] == high[1]));
-        let top: Vec<u32> = top.collect();
-        // So few that they are one block.
-        let rows: Vec<_> = (0..16)
-            .map(|at| {
-                let place = [0.1 * random.next(), 0.1 * random.next()];
-                if at % 2 == 0 {
-                    let inside = [place[0] - 0.3, high[1] - 0.3 - 0.1 * random.next(), place[1]];
-                    return (inside, NO_TRIANGLE);
-                }
-                let id = top[random.below(2)];
-                (on(&triangles[id as usize], [0.3 + place[0], 0.3 + place[1]]), id)
-            })
-            .collect();
-        let blocked = compare("box", &triangles, &light_samples, &rows, 4);
-        assert!(blocked > 100, "seed {seed}: {blocked}");
-    }
 }
