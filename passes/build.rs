@@ -5,19 +5,24 @@ use std::path::{Path, PathBuf};
 
 fn main() -> std::io::Result<()> {
     println!("cargo:rerun-if-changed=.");
-    let shared = mixed(0xcbf2_9ce4_8422_2325, Path::new("shared"));
+    let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default());
+    fs::write(out.join("sources.rs"), sources(Path::new(".")))
+}
+
+/// Stage, pass and number of each pass in `root`, as Rust text. What a stage has beside its passes counts for all of them:
+/// its `mod.rs` may hold what their functions call, and a pass more in its list costs no more than measuring again.
+pub fn sources(root: &Path) -> String {
+    let of_all = mixed(mixed(0xcbf2_9ce4_8422_2325, &root.join("shared")), &root.join("ports.rs"));
     let mut lines = String::from("&[\n");
-    for stage in folders(Path::new(".")) {
-        // The stage's own list of passes is no part of any of them.
-        let files = entries(&stage).into_iter().filter(|path| path.is_file() && name(path) != "mod.rs");
-        let of_stage = files.fold(shared, |hash, file| mixed(hash, &file));
+    for stage in folders(root) {
+        let files = entries(&stage).into_iter().filter(|path| path.is_file());
+        let of_stage = files.fold(of_all, |hash, file| mixed(hash, &file));
         for pass in folders(&stage) {
             let hash = mixed(of_stage, &pass);
             lines += &format!("    ({:?}, {:?}, \"{hash:016x}\"),\n", name(&stage), name(&pass));
         }
     }
-    lines += "]\n";
-    fs::write(PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default()).join("sources.rs"), lines)
+    lines + "]\n"
 }
 
 fn name(path: &Path) -> String {

@@ -52,15 +52,45 @@ pub fn catalogue() -> Catalogue {
     Catalogue::new(stages.into_iter().flatten().copied())
 }
 
-/// A number of the sources of `pass`, its WGSL and what it shares with other passes included, in sixteen hexadecimal digits; none
-/// for a pass that is not of this crate.
+/// A number of the sources of `pass` in sixteen hexadecimal digits: its folder with its WGSL, what lies beside it in its stage's
+/// folder, [`ports`] and [`shared`], tests left out. Other crates are not in it. None for a pass that is not of this crate.
 pub fn source_id(pass: &Pass) -> Option<&'static str> {
     let sources: &[(&str, &str, &'static str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
     sources.iter().find(|(stage, name, _)| (*stage, *name) == (pass.stage.name, pass.name)).map(|(_, _, id)| *id)
 }
 
 #[cfg(test)]
+#[allow(dead_code, reason = "a build script has a main function")]
+#[path = "build.rs"]
+mod build;
+
+#[cfg(test)]
 mod tests {
+    use super::build;
+
+    /// Files that change the number of a pass, and those that do not.
+    #[test]
+    fn a_source_is_all_that_the_pass_calls_in_this_crate() {
+        let root = std::path::Path::new(env!("OUT_DIR")).join("sources_of_a_test");
+        let write = |file: &str, text: &str| {
+            let path = root.join(file);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, text).unwrap();
+        };
+        let files = ["ports.rs", "shared/walk.rs", "scan/mod.rs", "scan/fold.wgsl", "scan/sums/cpu.rs"];
+        let beside = ["lib.rs", "scan/tests.rs", "scan/sums/tests.rs", "shade/lambert/cpu.rs"];
+        for file in files.iter().chain(&beside) {
+            write(file, "before");
+        }
+        let id = || build::sources(&root).lines().find(|line| line.contains("sums")).map(String::from).unwrap();
+        let before = id();
+        for (file, changes) in files.map(|file| (file, true)).into_iter().chain(beside.map(|file| (file, false))) {
+            write(file, "after");
+            assert_eq!(id() != before, changes, "{file}");
+            write(file, "before");
+        }
+    }
+
     #[test]
     fn every_pass_has_a_source_of_its_own() {
         let mut ids: Vec<_> = super::catalogue().passes().map(super::source_id).collect();

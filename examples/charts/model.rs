@@ -56,6 +56,9 @@ pub struct Point {
     /// Text of the problem that kept the variant from running or from being measured. Such a point is listed, not drawn.
     #[serde(default)]
     pub failure: Option<String>,
+    /// The part of the scene's variants that was timed together, `2/4`; empty where all of them were.
+    #[serde(default)]
+    pub part: String,
     /// On what, from what, when.
     #[serde(default)]
     pub provenance: Provenance,

@@ -8,7 +8,7 @@ use shadowgraph_core::array::Array;
 use shadowgraph_core::metric::{Leaks, Penumbra, grey_errors, mask_difference, penumbra_widths};
 use shadowgraph_core::plan::{Plan, Producer, Slot};
 use shadowgraph_core::problem::{Kind, Problem};
-use shadowgraph_core::shared::{FACING_AWAY, KEPT, NO_TRIANGLE};
+use shadowgraph_core::shared::{FACING_AWAY, NO_TRIANGLE};
 use shadowgraph_cpu::Progress;
 use shadowgraph_measure::flip;
 
@@ -35,8 +35,6 @@ pub struct Answers {
     pub light_samples: usize,
     /// Picture width and height, pixels.
     pub size: [usize; 2],
-    /// Whether view-samples that face away are marked so: a graph that tests all of them is not judged there.
-    filters_facing: bool,
 }
 
 impl Answers {
@@ -74,10 +72,6 @@ impl Answers {
             image: find("radiance"),
             light_samples: job.light_samples_count(),
             size: job.image,
-            filters_facing: plan
-                .nodes
-                .iter()
-                .any(|node| node.pass.stage.name == "sample_filter" && node.pass.name != "all"),
         };
         match (&answers.mask, &answers.visible) {
             (None, None) => need("mask").map(|_| answers),
@@ -99,11 +93,10 @@ impl Answers {
         .collect()
     }
 
-    /// Whether the row is judged: it is a view-sample, and where the truth says that it faces away the graph was to say so too.
+    /// Whether the row is judged: it is a view-sample, and faces the light as `truth` says. Those that face away are dark whatever
+    /// casts a shadow; graphs that mark them and graphs that test them like any other are judged on the same rows without them.
     pub fn is_compared(&self, truth: &Self, row: usize) -> bool {
-        let tests_all =
-            !self.filters_facing && truth.state.as_u32()[row] == FACING_AWAY && self.state.as_u32()[row] == KEPT;
-        self.triangle.as_u32()[row] != NO_TRIANGLE && !tests_all
+        self.triangle.as_u32()[row] != NO_TRIANGLE && truth.state.as_u32()[row] != FACING_AWAY
     }
 
     /// Visible fractions as a picture `[H W]`, lit where there is no view-sample.
@@ -163,6 +156,14 @@ impl Truth {
 /// # Errors
 /// A value that is not finite, or view-samples that are not those of the truth.
 pub fn errors(test: &Answers, truth: &Truth) -> Result<Errors, Problem> {
+    errors_told(test, truth).map(|(errors, _)| errors)
+}
+
+/// The same, and why FLIP has no figure where it refused pictures of finite values.
+///
+/// # Errors
+/// As [`errors`].
+pub fn errors_told(test: &Answers, truth: &Truth) -> Result<(Errors, Vec<Problem>), Problem> {
     let grey = &truth.grey;
     if test.pixel != grey.pixel || test.position != grey.position {
         return Err(Problem::new(Kind::BadValue, "the truth answers for other view-samples")
@@ -202,17 +203,37 @@ pub fn errors(test: &Answers, truth: &Truth) -> Result<Errors, Problem> {
         let widths = penumbra_widths(&test.picture(&seen), &grey.picture(&right), test.size, joined)?;
         errors.penumbra_width_ratio = widths.median_ratio;
     }
+    let mut remarks = Vec::new();
     if let (Some(image), Some(right)) = (&test.image, &grey.image) {
-        errors.flip_tonemapped = Some(flip::tone_mapped(image, right, flip::DEFAULT_PPD)?.flip.mean);
+        finite(image)?;
+        let mut mean = |asked: Result<flip::Flip, Problem>| match asked {
+            Ok(flip) => Some(flip.mean),
+            Err(refusal) => {
+                remarks.push(refusal);
+                None
+            }
+        };
+        errors.flip_tonemapped = mean(flip::tone_mapped(image, right, flip::DEFAULT_PPD).map(|made| made.flip));
         // Without light there is no range of exposures to look through.
         if right.as_f32().chunks_exact(4).any(|texel| texel[..3].iter().any(|value| *value > 0.0)) {
-            errors.flip_linear = Some(flip::high_range(image, right, flip::DEFAULT_PPD)?.flip.mean);
+            errors.flip_linear = mean(flip::high_range(image, right, flip::DEFAULT_PPD).map(|made| made.flip));
         }
     }
-    Ok(errors)
+    Ok((errors, remarks))
 }
 
-fn rows_by_pixel(answers: &Answers) -> Vec<Option<usize>> {
+/// Radiance that is no number is a fault of the graph, not of what compares.
+fn finite(image: &Array) -> Result<(), Problem> {
+    match image.as_f32().iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(Problem::new(Kind::BadValue, "the picture holds a value that is not finite")
+            .expected("finite radiance")
+            .found(format!("{} at texel {}, channel {}", image.as_f32()[index], index / 4, index % 4))),
+    }
+}
+
+/// The row of each pixel that has one.
+pub fn rows_by_pixel(answers: &Answers) -> Vec<Option<usize>> {
     let mut rows = vec![None; answers.size[0] * answers.size[1]];
     for (row, pixel) in answers.pixel.as_u32().iter().enumerate() {
         if let Some(place) = rows.get_mut(*pixel as usize) {
@@ -223,7 +244,7 @@ fn rows_by_pixel(answers: &Answers) -> Vec<Option<usize>> {
 }
 
 /// Neighbouring view-samples with nearly one normal, neither far out of the other's plane.
-fn is_one_surface(answers: &Answers, a: usize, b: usize) -> bool {
+pub fn is_one_surface(answers: &Answers, a: usize, b: usize) -> bool {
     let (position, normal) = (answers.position.as_vec3(), answers.normal.as_vec3());
     let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let step = [0, 1, 2].map(|k| position[b][k] - position[a][k]);

@@ -1,6 +1,7 @@
 //! `chart` and `merge`.
 
 use super::BackendChoice;
+use crate::stability::records::Shard;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -27,9 +28,9 @@ pub struct ChartArgs {
     /// Only this scene of the suite; may be repeated
     #[arg(long, value_name = "NAME")]
     pub scene: Vec<String>,
-    /// Only part I of N
+    /// Only part I of N: of the scenes, or of each scene's variants where there are fewer scenes than parts
     #[arg(long, value_name = "I/N", default_value = "1/1")]
-    pub shard: String,
+    pub shard: Shard,
     /// Where nodes run that are not pinned, if the suite does not say
     #[arg(long, value_enum, default_value = "auto")]
     pub backend: BackendChoice,

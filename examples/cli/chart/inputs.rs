@@ -12,8 +12,34 @@ use crate::job::Job;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::plan::{Backend, Plan, Slot};
 use shadowgraph_core::problem::{Problem, Problems};
-use shadowgraph_graph::Keep;
+use shadowgraph_graph::{Keep, plan_id};
 use std::collections::HashMap;
+
+/// Takes a plan into a number: nodes, passes, parameters, and the sources of the passes.
+pub fn take_plan(number: &mut Number, plan: &Plan) {
+    number.text(&plan_id(plan));
+    plan.nodes.iter().filter_map(|node| shadowgraph_passes::source_id(node.pass)).for_each(|id| number.text(id));
+}
+
+/// A number of what a variant of so many light samples is judged by: what `reference` light samples are, as one of them does not show
+/// a light's shape, and the graphs that make view-samples and truths.
+///
+/// # Errors
+/// What is wrong with scene, view or flags.
+pub fn truth_number(light_samples: u32, reference: u32, jobs: &mut Jobs, how: &How) -> Result<Number, Problems> {
+    let of_set = reference.min(MOST_OF_SET);
+    let light = jobs.get(of_set)?;
+    let mut number = Number::default();
+    number.word(reference);
+    number.text(&jobs.number(of_set, &light).hex());
+    for count in [1, light_samples, of_set] {
+        take_plan(&mut number, &truth_plan(&jobs.get(count)?, how)?);
+    }
+    if reference > MOST_OF_SET {
+        take_plan(&mut number, &sets_plan(&light, how)?);
+    }
+    Ok(number)
+}
 
 /// Most light samples of one set.
 pub const MOST_OF_SET: u32 = 4096;
@@ -99,9 +125,7 @@ impl Truths {
             return Ok(known.clone());
         }
         let job = jobs.get(MOST_OF_SET)?.importing(self.view_samples(jobs, how)?);
-        let choice = GraphChoice { graph: "soft_shafts".into(), ..GraphChoice::default() };
-        let keep = Keep::AllLivePorts;
-        let plan = graph_choice::plan(&choice, how.catalogue, Some(&job.facts), Backend::Cpu, keep)?;
+        let plan = sets_plan(&job, how)?;
         let progress = |node: &str, done, total| how.bar.set(&format!("reference, {node}"), done, total);
         let sets = (light_samples / MOST_OF_SET) as usize;
         let machine = Machine::new(BackendChoice::Cpu)?;
@@ -139,7 +163,15 @@ impl Truths {
 }
 
 fn truth_plan(job: &Job, how: &How) -> Result<Plan, Problems> {
-    let graph = if job.light_samples_count() == 1 { "truth_hard" } else { "truth_soft" };
+    plan_of(if job.light_samples_count() == 1 { "truth_hard" } else { "truth_soft" }, job, how)
+}
+
+/// Answers for one of several sets.
+fn sets_plan(job: &Job, how: &How) -> Result<Plan, Problems> {
+    plan_of("soft_shafts", job, how)
+}
+
+fn plan_of(graph: &str, job: &Job, how: &How) -> Result<Plan, Problems> {
     let choice = GraphChoice { graph: graph.into(), ..GraphChoice::default() };
     graph_choice::plan(&choice, how.catalogue, Some(&job.facts), Backend::Cpu, Keep::AllLivePorts)
 }

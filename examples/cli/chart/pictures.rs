@@ -1,13 +1,12 @@
 //! Pictures of a variant: what it shaded, where it is wrong, and the scene's most telling penumbra enlarged.
 
 use super::store::PICTURES;
-use crate::answers::{Answers, Truth};
+use crate::answers::{Answers, Truth, is_one_surface, rows_by_pixel};
 use crate::compare::picture::differences;
 use crate::picture::{rgb_bytes, write_rgb};
 use shadowgraph_charts::error_map::colour;
 use shadowgraph_charts::model::{Pictures, Point};
 use shadowgraph_core::problem::Problem;
-use shadowgraph_core::shared::NO_TRIANGLE;
 use std::path::Path;
 
 /// Pixels a side that a close-up shows.
@@ -15,11 +14,18 @@ const CLOSEUP_PX: usize = 40;
 /// Pixels in place of one of them.
 const ENLARGED: usize = 4;
 
-/// Writes the pictures of a point into `folder` and names them. Those of the truth are one for all variants of a scene.
+/// Writes the pictures of a point into `folder` and names them. Those of the truth are one for all variants
+/// of a scene with the same `truth_number`.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn write(folder: &Path, point: &Point, answers: &Answers, truth: &Truth) -> Result<Pictures, Problem> {
+pub fn write(
+    folder: &Path,
+    point: &Point,
+    truth_number: &str,
+    answers: &Answers,
+    truth: &Truth,
+) -> Result<Pictures, Problem> {
     let size = answers.size;
     let [left, top] = telling(&truth.grey);
     let mut pictures = Pictures::default();
@@ -39,7 +45,7 @@ pub fn write(folder: &Path, point: &Point, answers: &Answers, truth: &Truth) -> 
         pictures.closeup_picture = save("closeup", &point.id, &close, close_size)?;
     }
     if let Some(image) = &truth.grey.image {
-        let stem = format!("{}-{}", plain(&point.scene), plain(&point.view));
+        let stem = format!("{}-{}-{truth_number}", plain(&point.scene), plain(&point.view));
         let bytes = rgb_bytes(image);
         let (close, close_size) = cut(&bytes, size, [left, top]);
         pictures.truth = save("truth", &stem, &bytes, size)?;
@@ -56,17 +62,15 @@ fn plain(name: &str) -> String {
 fn telling(truth: &Answers) -> [usize; 2] {
     let [width, height] = truth.size;
     let visible = truth.picture(&truth.fractions());
-    let mut seen = vec![NO_TRIANGLE; width * height];
-    for (pixel, triangle) in truth.pixel.as_u32().iter().zip(truth.triangle.as_u32()) {
-        if let Some(texel) = seen.get_mut(*pixel as usize) {
-            *texel = *triangle;
-        }
-    }
+    let row_of = rows_by_pixel(truth);
     let change = |x: usize, y: usize| {
         let (here, right) = (y * width + x, y * width + (x + 1).min(width - 1));
         let below = (y + 1).min(height - 1) * width + x;
         // What changes with the surface says nothing about shadows.
-        let one = |other: usize| if seen[here] == seen[other] { (visible[here] - visible[other]).abs() } else { 0.0 };
+        let one = |other: usize| match (row_of[here], row_of[other]) {
+            (Some(a), Some(b)) if is_one_surface(truth, a, b) => (visible[here] - visible[other]).abs(),
+            _ => 0.0,
+        };
         f64::from(one(right) + one(below)).sqrt()
     };
     // Sums over all windows from the sums over rectangles that begin at the corner.
@@ -104,6 +108,32 @@ fn cut(bytes: &[u8], [width, height]: [usize; 2], [left, top]: [usize; 2]) -> (V
 #[cfg(test)]
 mod tests {
     use super::*;
+    use shadowgraph_core::array::Array;
+    use shadowgraph_core::shared::KEPT;
+
+    /// A floor of which each pixel sees a triangle of its own, in shadow from column 70 on; column 10 is a step without a shadow's edge.
+    #[test]
+    fn the_most_telling_window_is_at_a_shadows_edge_on_fine_meshes_too() {
+        let size = [100, 60];
+        let count = size[0] * size[1];
+        let at = |pixel: usize| [(pixel % size[0]) as f32, (pixel / size[0]) as f32];
+        let corner = |pixel: usize| [at(pixel)[0], at(pixel)[1], if at(pixel)[0] < 10.0 { 9.0 } else { 0.0 }];
+        let light = |pixel: usize| if (10.0..70.0).contains(&at(pixel)[0]) { 1.0 } else { 0.0 };
+        let truth = Answers {
+            position: Array::f32([count, 3], (0..count).flat_map(corner).collect::<Vec<f32>>()),
+            normal: Array::f32([count, 3], (0..count).flat_map(|_| [0.0, 0.0, 1.0]).collect::<Vec<f32>>()),
+            triangle: Array::u32([count], (0..count as u32).collect::<Vec<u32>>()),
+            pixel: Array::u32([count], (0..count as u32).collect::<Vec<u32>>()),
+            state: Array::u32([count], vec![KEPT; count]),
+            mask: None,
+            visible: Some(Array::f32([count], (0..count).map(light).collect::<Vec<f32>>())),
+            image: None,
+            light_samples: 1,
+            size,
+        };
+        let [left, _] = telling(&truth);
+        assert!(left < 70 && left + CLOSEUP_PX > 70, "the edge is not in the window from {left} on");
+    }
 
     #[test]
     fn a_cut_is_enlarged_from_its_corner() {

@@ -10,6 +10,7 @@ use shadowgraph_charts::{csv, files};
 use shadowgraph_core::problem::{Problem, Problems};
 use shadowgraph_measure::pareto::{self, Measured};
 use shadowgraph_measure::statistics::{self, median, order_interval};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Confidence of the intervals of medians.
@@ -25,7 +26,7 @@ const SVG_METRICS: [&str; 3] = ["rmse_penumbra", "rmse_all", "wrong_bit_share"];
 /// A time that is not finite.
 pub fn points(store: &Store) -> Result<Vec<Point>, Problem> {
     let mut points = Vec::new();
-    for answer in &store.answers {
+    for answer in store.shown() {
         let rounds: Vec<_> = store.rounds.iter().filter(|round| round.variant() == answer.id).collect();
         let millis: Vec<f64> = rounds.iter().map(|round| round.millis).collect();
         let mut point = answer.clone();
@@ -85,6 +86,28 @@ pub fn front(points: &[&Point], metric: &Metric) -> Front {
     front
 }
 
+/// Names the scenes whose times were not all taken together: on one machine, in the same rounds. Empty where there are none.
+fn mixed(points: &[Point]) -> String {
+    let mut together: BTreeMap<&str, BTreeSet<_>> = BTreeMap::new();
+    for point in points.iter().filter(|point| point.failure.is_none()) {
+        let of = &point.provenance;
+        // Only what ran on an adapter names one.
+        let adapter = (point.backend != "cpu").then_some((&of.adapter, &of.driver));
+        together.entry(&point.scene).or_default().insert((&point.backend, adapter, of.threads, &point.part));
+    }
+    let is_mixed = |(_, sets): &(&&str, &BTreeSet<(&String, _, usize, &String)>)| {
+        sets.iter().any(|a| sets.iter().any(|b| (a.0 == b.0 && a != b) || (a.2, a.3) != (b.2, b.3)))
+    };
+    let scenes: Vec<&str> = together.iter().filter(is_mixed).map(|(scene, _)| *scene).collect();
+    match scenes.as_slice() {
+        [] => String::new(),
+        scenes => format!(
+            "Not all times were taken together, but in parts or on several machines, so do not weigh small differences: {}.",
+            scenes.join(", ")
+        ),
+    }
+}
+
 /// Writes points, table, charts and page into the store's folder; names what was written, and remarks.
 ///
 /// # Errors
@@ -104,7 +127,14 @@ pub fn write(store: &Store, title: &str, about: &str) -> Result<(Vec<PathBuf>, V
     for (name, text) in files::charts(&points, &metrics, &front) {
         store.write(&format!("svg/{name}"), text.as_bytes())?;
     }
-    let options = Options { title, about, picture: &picture, pictures_max_bytes: PICTURES_MAX_BYTES, front: &front };
+    let about = [about, &mixed(&points)].join(" ");
+    let options = Options {
+        title,
+        about: about.trim(),
+        picture: &picture,
+        pictures_max_bytes: PICTURES_MAX_BYTES,
+        front: &front,
+    };
     let page = charts(&points, &options)?;
     wrote.push(store.write("chart.html", page.html.as_bytes())?);
     Ok((wrote, page.remarks))

@@ -1,26 +1,28 @@
 //! Runs a suite: every variant answers once for the same view-samples and is judged, then all variants of a scene are timed in
 //! rounds, so that what slows the machine for a while slows all of them.
 
-use super::inputs::{Jobs, MOST_OF_SET, Truths};
+use super::inputs::{Jobs, MOST_OF_SET, Truths, take_plan, truth_number};
 use super::number::Number;
 use super::pictures;
-use super::store::{Round, Store};
+use super::store::{Answer, Round, Store};
 use super::suite::{SceneEntry, Suite};
 use super::variant::Variant;
-use crate::answers::{Answers, Truth, errors};
+use crate::answers::{Answers, Truth, errors_told};
 use crate::args::BackendChoice;
 use crate::engine::Machine;
 use crate::graph_choice;
 use crate::record::WGPU_VERSION;
 use crate::report::Bar;
+use crate::stability::records::Shard;
 use crate::stretch::Frame;
 use crate::trial::Trial;
+use shadowgraph_charts::check::Record;
 use shadowgraph_charts::model::{NodeCost, Point, Provenance};
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::plan::{Backend, Plan};
 use shadowgraph_core::problem::{Kind, Problem, Problems};
-use shadowgraph_graph::{Keep, plan_id};
+use shadowgraph_graph::Keep;
 use std::collections::HashMap;
 use std::time::SystemTime;
 
@@ -37,8 +39,9 @@ pub struct How<'a> {
     pub catalogue: &'a Catalogue,
     /// Where nodes run that are not pinned, if the suite does not say.
     pub backend: BackendChoice,
-    /// Which of how many parts, from 0.
-    pub shard: [usize; 2],
+    /// Which part of the suite: of its scenes, so that all times of one are taken together; where there are fewer scenes than parts, of
+    /// each scene's variants.
+    pub shard: Shard,
     /// Names of the scenes to run; none: all.
     pub scenes: &'a [String],
     /// Tells what is done.
@@ -71,6 +74,8 @@ struct Case<'a> {
     point: Point,
     /// Its plan with outputs kept, if there is one.
     plan: Option<Plan>,
+    /// A number of what it is judged by.
+    truth: String,
 }
 
 /// Runs what the store does not have yet, and returns the ids of all that this run is about.
@@ -85,6 +90,12 @@ pub fn run(suite: &Suite, store: &mut Store, how: &How) -> Result<Vec<String>, P
     };
     let scenes = suite.scenes.iter().filter(|scene| how.scenes.is_empty() || how.scenes.contains(&scene.name));
     let scenes: Vec<&SceneEntry> = scenes.collect();
+    let (scenes, how) = if scenes.len() >= how.shard.count {
+        let own = scenes.into_iter().enumerate().filter(|(index, _)| how.shard.takes(*index)).map(|(_, scene)| scene);
+        (own.collect::<Vec<_>>(), &How { shard: Shard { index: 1, count: 1 }, ..*how })
+    } else {
+        (scenes, how)
+    };
     let mut ids = Vec::new();
     for (index, scene) in scenes.iter().enumerate() {
         let about = format!("scene {} of {}, {}", index + 1, scenes.len(), scene.name);
@@ -103,22 +114,27 @@ fn run_scene(
 ) -> Result<Vec<String>, Problems> {
     let variants =
         suite.variants.iter().filter(|variant| variant.only.is_empty() || variant.only.contains(&scene.name));
-    let [part, parts] = how.shard;
     let mut jobs = Jobs::new(scene);
     let mut cases = Vec::new();
     let all =
         variants.flat_map(|variant| machines.of(suite, variant).into_iter().map(move |machine| (variant, machine)));
-    for (_, (variant, machine)) in all.enumerate().filter(|(index, _)| index % parts == part) {
+    for (_, (variant, machine)) in all.enumerate().filter(|(index, _)| how.shard.takes(*index)) {
         cases.push(case(suite, scene, variant, machine, &mut jobs, how));
     }
-    let forgotten = store.forget_earlier(&cases.iter().map(|case| &case.point).collect::<Vec<_>>())?;
-    if forgotten > 0 {
+    let earlier_count = store.show(&cases.iter().map(|case| &case.point).collect::<Vec<_>>())?;
+    if earlier_count > 0 {
         let scene = &scene.name;
-        let remark = format!("{forgotten} variants on {scene} are not what they were in an earlier run: measured anew");
+        let remark =
+            format!("{earlier_count} variants on {scene} are not what they were in an earlier run: measured anew");
         store.remarks.push(Problem::new(Kind::BadValue, remark));
     }
-    let unanswered: Vec<usize> =
-        (0..cases.len()).filter(|index| store.answers.iter().all(|known| known.id != cases[*index].point.id)).collect();
+    let is_open = |case: &Case| match store.answer(&case.point.id) {
+        None => true,
+        // Memory, a disk or a device that failed then may do now; what has no plan is asked by planning it.
+        Some(known) if case.plan.is_some() => known.failure.is_some(),
+        Some(known) => known.failure != case.point.failure,
+    };
+    let unanswered: Vec<usize> = (0..cases.len()).filter(|index| is_open(&cases[*index])).collect();
     let mut truths = Truths::default();
     for (done, index) in unanswered.iter().enumerate() {
         let case = &cases[*index];
@@ -126,15 +142,23 @@ fn run_scene(
         let mut point = case.point.clone();
         if point.failure.is_none() {
             let asked = answer(suite, case, &mut jobs, &mut truths, how).and_then(|(answers, truth)| {
-                point.errors = errors(&answers, &truth)?;
-                point.pictures = pictures::write(store.folder(), &point, &answers, &truth)?;
+                let (errors, remarks) = errors_told(&answers, &truth)?;
+                let told = remarks.into_iter().map(|remark| Problem { node: Some(name(case)), ..remark });
+                store.remarks.extend(told);
+                point.pictures = pictures::write(store.folder(), &point, &case.truth, &answers, &truth)?;
+                // Figures that no chart takes are a fault of the variant, and stop no other.
+                Answer(Point { errors: errors.clone(), ..point.clone() }).check()?;
+                point.errors = errors;
                 Ok(())
             });
             if let Err(problems) = asked {
                 point.failure = Some(problems.to_string());
             }
         }
-        store.add_answer(point)?;
+        // What fails as it did is told once.
+        if point.failure.is_none() || store.answer(&point.id).map(|known| &known.failure) != Some(&point.failure) {
+            store.add_answer(point)?;
+        }
     }
     time(suite, &cases, &mut jobs, store, how, about)?;
     Ok(cases.into_iter().map(|case| case.point.id).collect())
@@ -149,7 +173,7 @@ fn time(
     how: &How,
     about: &str,
 ) -> Result<(), Problems> {
-    let failed = |id: &str, store: &Store| store.answers.iter().any(|point| point.id == id && point.failure.is_some());
+    let failed = |id: &str, store: &Store| store.answer(id).is_some_and(|point| point.failure.is_some());
     let mut done: HashMap<String, Vec<f64>> = HashMap::new();
     for round in &store.rounds {
         done.entry(round.variant().to_string()).or_default().push(round.millis);
@@ -174,7 +198,7 @@ fn time(
                     store.add_round(round)?;
                 }
                 Err(problems) => {
-                    let known = store.answers.iter().find(|point| point.id == *id).cloned();
+                    let known = store.answer(id).cloned();
                     store.add_answer(Point {
                         failure: Some(problems.to_string()),
                         ..known.unwrap_or(case.point.clone())
@@ -275,6 +299,7 @@ fn case<'a>(
         label: variant.label(),
         backend: if backend == Backend::Cpu { "cpu".into() } else { "wgpu".into() },
         light_samples: variant.light_samples as usize,
+        part: if how.shard.count > 1 { format!("{}/{}", how.shard.index, how.shard.count) } else { String::new() },
         ..Point::default()
     };
     let planned = jobs.get(variant.light_samples).and_then(|job| {
@@ -287,17 +312,18 @@ fn case<'a>(
         }
         let keep = Keep::OutputsOnly;
         let plan = graph_choice::plan(&variant.choice, how.catalogue, Some(&job.facts), backend, keep)?;
-        Ok((job, plan, machine.as_ref().map_err(Clone::clone)?))
+        let truth = truth_number(variant.light_samples, suite.reference, jobs, how)?;
+        Ok((job, plan, truth, machine.as_ref().map_err(Clone::clone)?))
     });
     let mut number = Number::default();
     number.text(&format!("{} {} {} {}", point.suite, point.scene, point.graph, point.label));
     number.text(&format!("{} {} {}", point.backend, suite.reference, scene.choice.size));
+    let mut judged_by = Number::default();
     let plan = match planned {
-        Ok((job, plan, machine)) => {
-            let sources = plan.nodes.iter().filter_map(|node| shadowgraph_passes::source_id(node.pass));
+        Ok((job, plan, truth, machine)) => {
             let mut graph = Number::default();
-            graph.text(&plan_id(&plan));
-            sources.for_each(|source| graph.text(source));
+            take_plan(&mut graph, &plan);
+            judged_by = truth;
             point.size = job.image;
             point.view = job.camera.name.clone();
             point.left_out = plan.left_out.clone();
@@ -316,6 +342,7 @@ fn case<'a>(
             };
             number.text(&point.provenance.graph_hash);
             number.text(&point.provenance.scene_hash);
+            number.text(&truth.hex());
             // Times of another machine are other figures.
             number.text(&format!("{} {}", point.provenance.adapter, point.provenance.driver));
             number.word(point.provenance.threads as u32);
@@ -327,7 +354,7 @@ fn case<'a>(
         }
     };
     point.id = number.hex();
-    Case { variant, machine: machine.as_ref().ok(), backend, point, plan }
+    Case { variant, machine: machine.as_ref().ok(), backend, point, plan, truth: judged_by.hex() }
 }
 
 #[cfg(test)]

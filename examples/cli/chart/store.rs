@@ -5,9 +5,8 @@ use crate::file_problem;
 use serde::{Deserialize, Serialize};
 use shadowgraph_charts::check::Record;
 use shadowgraph_charts::lines;
-use shadowgraph_charts::model::{Interval, NodeCost, Point};
+use shadowgraph_charts::model::{Interval, NodeCost, Pictures, Point};
 use shadowgraph_core::problem::{Kind, Problem, Problems};
-use std::collections::HashSet;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -18,6 +17,8 @@ pub const ANSWERS: &str = "answers.jsonl";
 pub const ROUNDS: &str = "rounds.jsonl";
 /// Points as the page shows them.
 pub const POINTS: &str = "points.jsonl";
+/// Which answers are of variants or scenes as they were before.
+pub const SUPERSEDED: &str = "superseded.jsonl";
 /// PNG files.
 pub const PICTURES: &str = "pictures";
 
@@ -72,11 +73,31 @@ impl Record for Round {
     }
 }
 
+/// Whether an answer is of a variant or scene as it was before; the last of an id counts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Superseded {
+    /// Id of the answer.
+    pub id: String,
+    /// The answer in its place; none: it is what it was again.
+    pub by: Option<String>,
+}
+
+impl Record for Superseded {
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn check(&self) -> Result<(), Problem> {
+        Ok(())
+    }
+}
+
 /// A folder of a chart run.
 pub struct Store {
     folder: PathBuf,
-    /// Points without times, by id.
+    /// Points without times, by id; those that others superseded too.
     pub answers: Vec<Point>,
+    superseded: Vec<Superseded>,
     /// Rounds of all variants.
     pub rounds: Vec<Round>,
     /// What was cut off: last lines that were not written to their end.
@@ -109,8 +130,15 @@ impl Store {
     }
 
     fn load(folder: &Path, mends: bool) -> Result<Self, Problems> {
-        let mut store = Self { folder: folder.into(), answers: Vec::new(), rounds: Vec::new(), remarks: Vec::new() };
+        let mut store = Self {
+            folder: folder.into(),
+            answers: Vec::new(),
+            superseded: Vec::new(),
+            rounds: Vec::new(),
+            remarks: Vec::new(),
+        };
         store.answers = store.read::<Answer>(ANSWERS, mends)?.into_iter().map(|answer| answer.0).collect();
+        store.superseded = store.read(SUPERSEDED, mends)?;
         store.rounds = store.read(ROUNDS, mends)?;
         Ok(store)
     }
@@ -143,29 +171,57 @@ impl Store {
         Ok(())
     }
 
-    /// Forgets what variants answered before they or their scene were changed: points that are one of `now` by name and have
-    /// another id. Their timed rounds stay on disk, where they count again if the change is undone. Returns how many there were.
+    /// The answer of this id.
+    pub fn answer(&self, id: &str) -> Option<&Point> {
+        self.answers.iter().find(|point| point.id == id)
+    }
+
+    /// Answers that no other superseded.
+    pub fn shown(&self) -> impl Iterator<Item = &Point> {
+        self.answers.iter().filter(|point| !self.is_superseded(&point.id))
+    }
+
+    fn is_superseded(&self, id: &str) -> bool {
+        self.superseded.iter().any(|known| known.id == id && known.by.is_some())
+    }
+
+    /// Shows `now` in place of what the same variants of this machine answered before they or their scene were changed: points that
+    /// are one of `now` by name and have another id. These stay on disk with their rounds, and are shown again if the change is
+    /// undone. A point without a plan takes nobody's place, as it says nothing about what there is to measure. Returns how many
+    /// measured points went out of sight.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn forget_earlier(&mut self, now: &[&Point]) -> Result<usize, Problem> {
-        let name =
-            |point: &Point| [&point.suite, &point.scene, &point.graph, &point.label, &point.backend].map(String::clone);
-        let ids: HashSet<&str> = now.iter().map(|point| point.id.as_str()).collect();
-        let names: HashSet<_> = now.iter().map(|point| name(point)).collect();
-        let is_earlier = |point: &Point| names.contains(&name(point)) && !ids.contains(point.id.as_str());
-        let count = self.answers.iter().filter(|point| is_earlier(point)).count();
-        if count == 0 {
-            return Ok(0);
+    pub fn show(&mut self, now: &[&Point]) -> Result<usize, Problem> {
+        let mut count = 0;
+        for point in now.iter().filter(|point| is_planned(point)) {
+            if self.is_superseded(&point.id) {
+                self.supersede(&point.id, None)?;
+            }
+            let is_earlier = |known: &&Point| {
+                known.id != point.id && is_of_name(known, point) && (!is_planned(known) || is_of_machine(known, point))
+            };
+            let earlier: Vec<(String, bool)> =
+                self.shown().filter(is_earlier).map(|known| (known.id.clone(), known.failure.is_none())).collect();
+            for (id, was_measured) in earlier {
+                self.supersede(&id, Some(point.id.clone()))?;
+                count += usize::from(was_measured);
+            }
         }
-        self.answers.retain(|point| !is_earlier(point));
-        let lines = self.answers.iter().map(|point| lines::to_line(&Answer(point.clone())));
-        let text = lines.collect::<Result<String, Problem>>()?;
-        // Written whole beside the old file first: a kill leaves one or the other.
-        let fresh = self.write(&format!("{ANSWERS}.new"), text.as_bytes())?;
-        let path = self.folder.join(ANSWERS);
-        std::fs::rename(&fresh, &path).map_err(|error| file_problem(&path, &error))?;
+        // What cannot be planned is told as long as that is so.
+        for point in now.iter().filter(|point| !is_planned(point) && self.is_superseded(&point.id)).collect::<Vec<_>>()
+        {
+            self.supersede(&point.id, None)?;
+        }
         Ok(count)
+    }
+
+    fn supersede(&mut self, id: &str, by: Option<String>) -> Result<(), Problem> {
+        let superseded = Superseded { id: id.into(), by };
+        self.append(SUPERSEDED, &lines::to_line(&superseded)?)?;
+        self.superseded.retain(|known| known.id != id);
+        self.superseded.push(superseded);
+        Ok(())
     }
 
     /// Appends a timed round.
@@ -198,6 +254,26 @@ impl Store {
     }
 }
 
+/// Whether it came to a plan: else it says only why not.
+fn is_planned(point: &Point) -> bool {
+    !point.provenance.graph_hash.is_empty()
+}
+
+fn is_of_name(a: &Point, b: &Point) -> bool {
+    let name =
+        |point: &Point| [&point.suite, &point.scene, &point.graph, &point.label, &point.backend].map(String::clone);
+    name(a) == name(b)
+}
+
+/// Times of another machine are other figures.
+fn is_of_machine(a: &Point, b: &Point) -> bool {
+    let machine = |point: &Point| {
+        let of = &point.provenance;
+        (of.adapter.clone(), of.driver.clone(), of.threads)
+    };
+    machine(a) == machine(b)
+}
+
 fn bytes_of(path: &Path) -> Result<Option<Vec<u8>>, Problem> {
     match std::fs::read(path) {
         Ok(bytes) => Ok(Some(bytes)),
@@ -218,18 +294,33 @@ fn mend(path: &Path, whole_bytes: usize, lead: &str) -> Result<(), Problem> {
     mend().map_err(|error| file_problem(path, &error))
 }
 
-/// Copies the records and pictures of `from` into the folder of `into`: the parts of a sharded run make a whole one.
+/// Copies the records and pictures of `from` into the folder of `into`: the parts of a sharded run make a whole one. What was
+/// measured takes the place of a failure to measure it. A part that is that folder itself is there already. Returns how many answers
+/// and rounds were new.
 ///
 /// # Errors
 /// A file cannot be read or written; a line that is no record.
 pub fn merge(into: &mut Store, from: &Path) -> Result<[usize; 2], Problems> {
     let part = Store::look(from)?;
-    into.remarks.extend(part.remarks);
+    let real = |folder: &Path| std::fs::canonicalize(folder).map_err(|error| file_problem(folder, &error));
+    if real(from)? == real(&into.folder)? {
+        return Ok([0, 0]);
+    }
+    into.remarks.extend(part.remarks.iter().cloned());
     let (mut answers, mut rounds) = (0, 0);
-    for point in part.answers {
-        if !into.answers.iter().any(|known| known.id == point.id) {
-            into.add_answer(point)?;
-            answers += 1;
+    for point in &part.answers {
+        let known = into.answer(&point.id);
+        let is_better = |known: &Point| known.failure.is_some() && point.failure.is_none();
+        if known.is_some_and(|known| !is_better(known)) {
+            continue;
+        }
+        let was_known = known.is_some();
+        copy_pictures(&point.pictures, from, &into.folder)?;
+        into.add_answer(point.clone())?;
+        answers += 1;
+        let by = part.superseded.iter().find(|superseded| superseded.id == point.id).and_then(|known| known.by.clone());
+        if by.is_some() && !was_known {
+            into.supersede(&point.id, by)?;
         }
     }
     for round in part.rounds {
@@ -238,14 +329,17 @@ pub fn merge(into: &mut Store, from: &Path) -> Result<[usize; 2], Problems> {
             rounds += 1;
         }
     }
-    let folder = from.join(PICTURES);
-    let entries = std::fs::read_dir(&folder).map_err(|error| file_problem(&folder, &error))?;
-    for entry in entries {
-        let entry = entry.map_err(|error| file_problem(&folder, &error))?;
-        let to = into.folder.join(PICTURES).join(entry.file_name());
-        std::fs::copy(entry.path(), &to).map_err(|error| file_problem(&to, &error))?;
-    }
     Ok([answers, rounds])
+}
+
+fn copy_pictures(pictures: &Pictures, from: &Path, to: &Path) -> Result<(), Problem> {
+    let of_method = [&pictures.picture, &pictures.error, &pictures.closeup_picture, &pictures.closeup_error];
+    let names = of_method.into_iter().chain([&pictures.truth, &pictures.closeup_truth]).flatten();
+    for name in names {
+        let (from, to) = (from.join(name), to.join(name));
+        std::fs::copy(&from, &to).map_err(|error| file_problem(&from, &error))?;
+    }
+    Ok(())
 }
 
 /// Holds a folder for one run at a time: two would write into each other's lines. The system lets go of it when a run is killed.

@@ -23,7 +23,7 @@
 
 use super::variant::{Variant, combinations, tell_apart};
 use crate::args::{GraphChoice, SceneChoice};
-use crate::{file_problem, job, usage_problem};
+use crate::{file_problem, job};
 use clap::Parser;
 use shadowgraph_core::facts::Facts;
 use shadowgraph_core::problem::{Kind, Problem, Problems};
@@ -346,17 +346,5 @@ fn set(choice: &mut GraphChoice, name: &Name, reader: &mut Reader) {
                 .found(&name.text);
             reader.problem(name.span, problem);
         }
-    }
-}
-
-/// `--shard I/N`: which of N parts this run does, from 1.
-///
-/// # Errors
-/// Anything else.
-pub fn shard(text: &str) -> Result<[usize; 2], Problem> {
-    let parts: Vec<usize> = text.split('/').filter_map(|part| part.parse().ok()).collect();
-    match parts[..] {
-        [part, count] if part >= 1 && part <= count => Ok([part - 1, count]),
-        _ => Err(usage_problem("--shard is no part of a whole").expected("I/N, with I from 1 to N").found(text)),
     }
 }

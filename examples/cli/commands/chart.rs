@@ -3,7 +3,7 @@
 use crate::args::{ChartArgs, MergeArgs};
 use crate::chart::run::{How, run};
 use crate::chart::store::{Lock, Store, merge};
-use crate::chart::suite::{Suite, shard};
+use crate::chart::suite::Suite;
 use crate::chart::{points, store};
 use crate::compare::text::figure;
 use crate::report::{Bar, align_right, table};
@@ -27,13 +27,12 @@ pub fn text(catalogue: &Catalogue, args: &ChartArgs) -> Result<String, Problems>
         let problem = usage_problem("--scene names no scene of the suite").expected(known.join(", ")).found(name);
         return Err(problem.into());
     }
-    let shard = shard(&args.shard)?;
     let _lock = Lock::take(&args.out)?;
     let mut store = Store::open(&args.out)?;
     tell(&mut store);
     if !args.page_only {
         let bar = Bar::new(args.quiet);
-        let how = How { catalogue, backend: args.backend, shard, scenes: &args.scene, bar: &bar };
+        let how = How { catalogue, backend: args.backend, shard: args.shard, scenes: &args.scene, bar: &bar };
         run(&suite, &mut store, &how)?;
         drop(bar);
         tell(&mut store);
