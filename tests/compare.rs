@@ -189,7 +189,8 @@ fn parameters() -> Result<(), Failed> {
     assert_eq!(port(&report, "visibility", "mask")?["comparison"]["is"], "equal");
     // A parameter is no excuse for a mask.
     let words = ["hard", "--set", "list_build.size=64", "--swap", "visibility=one_wrong_bit"];
-    let (report, _) = small_json(&words)?;
+    let (report, is_allowed) = small_json(&words)?;
+    assert!(!is_allowed, "other tables excuse a wrong bit: {report}");
     assert_eq!(port(&report, "visibility", "mask")?["comparison"]["count"], 1);
     assert!(report["errors"][1]["wrong_bit_share"].as_f64() > Some(0.0));
     Ok(())
@@ -210,6 +211,10 @@ fn contracts() -> Result<(), Failed> {
     let both = ["hard", "--swap", "conservative_raster=influence", "--swap", "visibility=one_wrong_bit"];
     let (report, is_allowed) = small_json(&both)?;
     assert!(!is_allowed && report["first_difference"] == "visibility", "{report}");
+    // So is the table: with itself, as it cannot be with the other's.
+    let both = ["hard", "--swap", "conservative_raster=influence", "--swap", "caster_fill=one_lost"];
+    let (report, is_allowed) = small_json(&both)?;
+    assert!(!is_allowed && report["first_difference"] == "caster_fill", "{report}");
     let coarse = ["soft_lu", "--swap", "visibility=multi_shadow_map", "--light-samples", "32", "--light-radius", "0.4"];
     let (report, is_allowed) = small_json(&coarse)?;
     assert!(is_allowed);
@@ -228,6 +233,14 @@ fn light_samples() -> Result<(), Failed> {
     for side in 0..2 {
         assert_eq!(report["errors"][side]["wrong_bit_share"], 0.0);
     }
+    // And one truth says how far one light sample is from many.
+    let rmse = |report: &Value, side: usize| report["errors"][side]["rmse_all"].as_f64().unwrap_or(f64::NAN);
+    assert!(rmse(&report, 0) > 0.01 && rmse(&report, 1) < 1e-6, "{} and {}", rmse(&report, 0), rmse(&report, 1));
+    assert_eq!(report["truth_light_samples"], 256);
+    has(&told, &["visible fractions and pictures of both against 256 light samples"])?;
+    let (report, _) = small_json(&[&["soft_shafts", "hard", "--attribute"], &scene[..]].concat())?;
+    let blame = &report["blames"][0];
+    assert_eq!((&blame["node"], &blame["removed_share"]), (&"light samples".into(), &1.0.into()), "{report}");
     Ok(())
 }
 
@@ -278,7 +291,10 @@ fn attribution() -> Result<(), Failed> {
     let (first, [visibility, combine, casters]) = blames("combine=threshold")?;
     assert_eq!((first, visibility, combine, casters), ("combine".into(), Some(0.0), Some(1.0), Some(0.0)));
     let (told, _) = text(&[&["soft_shafts", "--swap", "visibility=all_lit"], &light[..]].concat())?;
-    has(&told, &["node of B made right", "100.0 %"])?;
+    has(&told, &["node of B made right", "100.0 %", "no answer comes from them: view_samples, "])?;
+    let (report, _) = small_json(&[&["soft_shafts", "--swap", "sample_filter=all"], &light[..]].concat())?;
+    let named = |list: &str, node: &str| report[list].to_string().contains(&format!("\"{node}\""));
+    assert!(named("blames", "sample_filter") && named("not_attributed", "shade"), "{report}");
     let (told, _) = text(&[&["soft_shafts"], &light[..]].concat())?;
     has(&told, &["no error"])
 }

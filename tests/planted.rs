@@ -5,13 +5,14 @@ use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::pass::{Catalogue, Contract, Pass};
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::shared::KEPT;
+use shadowgraph_passes::caster_fill::direct;
 use shadowgraph_passes::visibility::{planes, shafts};
 use std::time::Instant;
 
 /// All passes, and those with faults.
 pub fn catalogue() -> Catalogue {
     let mut catalogue = shadowgraph_passes::catalogue();
-    for pass in [&ONE_WRONG_BIT, &ALL_LIT, &TENTH_SLOWER, &SAME_AGAIN] {
+    for pass in [&ONE_WRONG_BIT, &ALL_LIT, &TENTH_SLOWER, &SAME_AGAIN, &ONE_LOST] {
         catalogue.register(pass);
     }
     catalogue
@@ -42,14 +43,32 @@ static TENTH_SLOWER: Pass = Pass {
 /// `planes` by the way that [`TENTH_SLOWER`] takes, without the tenth.
 static SAME_AGAIN: Pass = Pass { name: "same_again", doc: "Planes.", cpu: Some(same_again), gpu: None, ..planes::PASS };
 
-/// What the CPU function of `pass` makes of the same inputs.
+/// `direct` that loses one caster of a table.
+static ONE_LOST: Pass =
+    Pass { name: "one_lost", doc: "Direct, and then one entry lost.", cpu: Some(one_lost), gpu: None, ..direct::PASS };
+
+/// The mask that the CPU function of `pass` makes of the same inputs.
 fn run_true(pass: &'static Pass, cx: &mut CpuCx) -> Result<Array, Problem> {
+    output_true(pass, "mask", cx)
+}
+
+fn output_true(pass: &'static Pass, output: &str, cx: &mut CpuCx) -> Result<Array, Problem> {
     let inputs = pass.stage.inputs().filter_map(|port| Some((port.name, cx.optional(port.name)?))).collect();
     let mut inner = CpuCx::new(pass, cx.params(), cx.image(), inputs, cx.progress());
     let run = pass.cpu.unwrap_or(|_| unreachable!("a pass of the CPU"));
     run(&mut inner)?;
     let (outputs, _) = inner.finish();
-    Ok(outputs.into_iter().find(|(port, _)| *port == "mask").map(|(_, mask)| mask).unwrap_or_else(|| unreachable!()))
+    Ok(outputs.into_iter().find(|(port, _)| *port == output).map(|(_, array)| array).unwrap_or_else(|| unreachable!()))
+}
+
+fn one_lost(cx: &mut CpuCx) -> Result<(), Problem> {
+    let entries = output_true(&direct::PASS, "caster_entries", cx)?;
+    let mut words = entries.as_u32().to_vec();
+    if let Some(first) = words.first_mut() {
+        *first ^= 1;
+    }
+    cx.put("caster_entries", Array::u32([words.len()], words));
+    Ok(())
 }
 
 fn one_wrong_bit(cx: &mut CpuCx) -> Result<(), Problem> {

@@ -46,15 +46,20 @@ pub(crate) struct Invocations {
     resolved: wgpu::Buffer,
     /// Node and place among its acts of each query.
     passes: Vec<(usize, usize)>,
+    /// The first node with a pass that has no query.
+    uncounted_from: Option<usize>,
 }
 
 impl Invocations {
-    /// For a frame of `prepared`; none where there is nothing to count. Passes past what a query set holds are not counted.
-    fn new(prepared: &Prepared) -> Option<Self> {
+    /// For a frame of `prepared` by at most `most` queries; none where there is nothing to count. A node with passes past them is not
+    /// counted.
+    fn new(prepared: &Prepared, most: usize) -> Option<Self> {
         let acts = |node: usize| prepared.nodes[node].iter().flatten().enumerate();
         let passes = (0..prepared.nodes.len())
             .flat_map(|node| acts(node).filter(|(_, act)| Act::is_pass(act)).map(move |(place, _)| (node, place)));
-        let passes: Vec<_> = passes.take(wgpu::QUERY_SET_MAX_QUERIES as usize).collect();
+        let mut passes: Vec<_> = passes.collect();
+        let uncounted_from = passes.get(most).map(|(node, _)| *node);
+        passes.truncate(most);
         let label = Some("pipeline statistics");
         (!passes.is_empty()).then(|| Self {
             set: prepared.device.create_query_set(&wgpu::QuerySetDescriptor {
@@ -69,6 +74,7 @@ impl Invocations {
                 mapped_at_creation: false,
             }),
             passes,
+            uncounted_from,
         })
     }
 
@@ -80,18 +86,23 @@ impl Invocations {
 }
 
 impl Ready<'_> {
-    /// Runs one more frame, untimed, and returns how often the shaders of each node ran; none where the device does not count.
+    /// Runs one more frame, untimed, and returns how often the shaders of each node ran; none where the device does not count, and
+    /// none of a node whose passes do not all have a query: a query set holds [`wgpu::QUERY_SET_MAX_QUERIES`].
     ///
     /// # Errors
     /// What the device reports.
-    pub fn statistics(&self) -> Result<Option<Vec<NodeStatistics>>, Problem> {
+    pub fn statistics(&self) -> Result<Option<Vec<Option<NodeStatistics>>>, Problem> {
+        self.statistics_of(wgpu::QUERY_SET_MAX_QUERIES as usize)
+    }
+
+    pub(crate) fn statistics_of(&self, most: usize) -> Result<Option<Vec<Option<NodeStatistics>>>, Problem> {
         let (session, prepared) = (self.session, &self.prepared);
         if !session.device.features().contains(wgpu::Features::PIPELINE_STATISTICS_QUERY) {
             return Ok(None);
         }
         scoped(&session.device, || {
-            let mut nodes = vec![NodeStatistics::default(); prepared.nodes.len()];
-            let Some(counted) = Invocations::new(prepared) else { return Ok(Some(nodes)) };
+            let mut nodes = vec![Some(NodeStatistics::default()); prepared.nodes.len()];
+            let Some(counted) = Invocations::new(prepared, most) else { return Ok(Some(nodes)) };
             let mut encoder = session.device.create_command_encoder(&Default::default());
             let queries = Queries { invocations: Some(&counted), ..Queries::default() };
             prepared.record_nodes(&mut encoder, &Bound::none(prepared), 0..nodes.len(), queries);
@@ -101,7 +112,15 @@ impl Ready<'_> {
             let words = read_words(&session.device, &session.queue, &counted.resolved, 0, words)?;
             for ((node, _), numbers) in counted.passes.iter().zip(words.chunks_exact(2 * NUMBERS)) {
                 let number = |at: usize| u64::from(numbers[2 * at]) | u64::from(numbers[2 * at + 1]) << 32;
-                nodes[*node].add(std::array::from_fn(number));
+                if let Some(node) = &mut nodes[*node] {
+                    node.add(std::array::from_fn(number));
+                }
+            }
+            if let Some(from) = counted.uncounted_from {
+                // Later nodes may have no pass at all: of those nothing is missing.
+                let has_pass = |node: usize| prepared.nodes[node].iter().flatten().any(Act::is_pass);
+                let uncounted = (from..nodes.len()).filter(|node| has_pass(*node)).collect::<Vec<_>>();
+                uncounted.into_iter().for_each(|node| nodes[node] = None);
             }
             Ok(Some(nodes))
         })

@@ -18,6 +18,8 @@ pub enum Comparison {
     Allowed {
         /// What differs, and what allows it.
         why: String,
+        /// Whether it is another superset, of which tables are laid out otherwise too; an order alone makes the same tables.
+        is_other_set: bool,
     },
     /// Other numbers, within the bound or the share of wrong bits that the contract states.
     Within {
@@ -75,7 +77,7 @@ impl Comparison {
     pub fn text(&self) -> String {
         match self {
             Self::Equal => "equal".into(),
-            Self::Allowed { why } | Self::Within { why } | Self::Approximation { why } => why.clone(),
+            Self::Allowed { why, .. } | Self::Within { why } | Self::Approximation { why } => why.clone(),
             Self::Parameters { why } => format!("by its parameters: {why}"),
             Self::Differs { count, of, first_row, what } => {
                 format!("{count} of {of} {what}; first at row {first_row}")
@@ -96,12 +98,12 @@ pub fn port_difference(node: &Node, port: &str, contract: Contract, around: [Aro
         return Comparison::NotCompared { why: "one of the runs has no such value".into() };
     };
     match (node.pass.stage.name, port) {
-        ("list_build", "slot") => places(one, other, around),
+        ("list_build", "slot") => places(["cell", "list_length"], one, other, around),
         ("list_fill", _) => sets("list_offset", one, other, around),
         ("caster_fill", _) => sets("caster_offset", one, other, around),
         ("conservative_raster", "pair_cell" | "pair_slot" | "pair_caster") => pairs(port, contract, around),
         ("conservative_raster", _) if contract == Contract::Superset && one != other => {
-            Comparison::Allowed { why: "another superset of the casters of each cell".into() }
+            Comparison::Allowed { why: "another superset of the casters of each cell".into(), is_other_set: true }
         }
         _ if one.shape() != other.shape() => {
             Comparison::NotCompared { why: format!("shapes {:?} and {:?}", one.shape(), other.shape()) }
@@ -166,15 +168,18 @@ fn masks(one: &Array, other: &Array, contract: Contract, lights: usize) -> Compa
     }
 }
 
-/// Places in lists: any order will do, if each list has each of its places once.
-fn places(one: &Array, other: &Array, around: [Around; 2]) -> Comparison {
+/// Places in lists, whose cells and lengths the ports `of` say: any order will do, if each list has each of its places once.
+fn places(of: [&str; 2], one: &Array, other: &Array, around: [Around; 2]) -> Comparison {
     if one == other {
         return Comparison::Equal;
     }
     let lists = |around: Around, slots: &Array| {
-        let (cell, length) = (around("cell")?.as_u32(), around("list_length")?.as_u32());
+        let [cell, length] = of.map(|port| around(port).map(Array::as_u32));
+        let (cell, length) = (cell?, length?);
         let mut seen: Vec<Vec<u32>> = vec![Vec::new(); length.len()];
-        for (cell, slot) in cell.iter().zip(slots.as_u32()) {
+        // Pairs past the last are room that was not needed; rows in no list have a cell past the last.
+        let count = if of[0] == PAIR_CELL { total(length) } else { cell.len() };
+        for (cell, slot) in cell.iter().zip(slots.as_u32()).take(count) {
             if let Some(list) = seen.get_mut(*cell as usize) {
                 list.push(*slot);
             }
@@ -196,7 +201,9 @@ fn places(one: &Array, other: &Array, around: [Around; 2]) -> Comparison {
             first_row: first as u64,
             what: "cells whose list misses a place or has one twice".into(),
         },
-        None => Comparison::Allowed { why: "another order within lists, which is unspecified".into() },
+        None => {
+            Comparison::Allowed { why: "another order within lists, which is unspecified".into(), is_other_set: false }
+        }
     }
 }
 
@@ -231,14 +238,18 @@ fn cells(mut differing: impl Iterator<Item = usize>, of: usize) -> Comparison {
     }
 }
 
-/// (cell, caster) pairs as sets: what each run has beside the other.
+/// Port with the cell of each pair.
+const PAIR_CELL: &str = "pair_cell";
+
+fn total(lengths: &[u32]) -> usize {
+    lengths.iter().map(|length| *length as usize).sum()
+}
+
+/// (cell, caster) pairs as sets: what each run has beside the other. Their places may have any order in which each is taken once.
 fn pairs(port: &str, contract: Contract, around: [Around; 2]) -> Comparison {
-    if port != "pair_caster" {
-        return Comparison::Allowed { why: "compared with pair_caster".into() };
-    }
     let set = |around: Around| {
-        let count: usize = around("caster_length")?.as_u32().iter().map(|length| *length as usize).sum();
-        let (cell, caster) = (around("pair_cell")?.as_u32(), around("pair_caster")?.as_u32());
+        let count = total(around("caster_length")?.as_u32());
+        let (cell, caster) = (around(PAIR_CELL)?.as_u32(), around("pair_caster")?.as_u32());
         let mut pairs: Vec<_> = cell.iter().zip(caster).take(count).map(|(cell, caster)| (*cell, *caster)).collect();
         pairs.sort_unstable();
         Some(pairs)
@@ -250,10 +261,20 @@ fn pairs(port: &str, contract: Contract, around: [Around; 2]) -> Comparison {
         one.iter().copied().filter(|pair| other.binary_search(pair).is_err()).collect::<Vec<_>>()
     };
     let (mine, theirs) = (beside(&one, &other), beside(&other, &one));
+    let slots = || match port {
+        "pair_slot" => {
+            let (one, other) = (around[0](port)?, around[1](port)?);
+            Some(places([PAIR_CELL, "caster_length"], one, other, around))
+        }
+        _ => None,
+    };
+    let slots = slots();
     match mine.iter().chain(&theirs).map(|(cell, _)| *cell).min() {
-        None => Comparison::Equal,
+        _ if slots.as_ref().is_some_and(Comparison::differs) => slots.unwrap_or(Comparison::Equal),
+        None => slots.unwrap_or(Comparison::Equal),
         Some(_) if contract == Contract::Superset => Comparison::Allowed {
             why: format!("another superset: {} pairs less, {} more, of {}", mine.len(), theirs.len(), one.len()),
+            is_other_set: true,
         },
         Some(cell) => Comparison::Differs {
             count: (mine.len() + theirs.len()) as u64,
@@ -262,6 +283,34 @@ fn pairs(port: &str, contract: Contract, around: [Around; 2]) -> Comparison {
             what: format!("(cell, caster) pairs: {} less, {} more; the row is a cell", mine.len(), theirs.len()),
         },
     }
+}
+
+/// The cells of a caster table that do not hold the casters of their own pairs, whatever another run made of other pairs.
+pub fn misfilled(around: Around) -> Option<Comparison> {
+    let [offset, entries, cell, caster] =
+        ["caster_offset", "caster_entries", PAIR_CELL, "pair_caster"].map(|port| around(port).map(Array::as_u32));
+    let (offset, entries, cell, caster) = (offset?, entries?, cell?, caster?);
+    let count = *offset.last()? as usize;
+    let mut wanted: Vec<_> = cell.iter().copied().zip(caster.iter().copied()).take(count).collect();
+    let places = |cell: usize| offset[cell] as usize..offset[cell + 1] as usize;
+    let cells_count = offset.len() - 1;
+    let found = |cell: usize| {
+        let entries = entries.get(places(cell)).unwrap_or_default();
+        entries.iter().map(move |caster| (cell as u32, *caster))
+    };
+    let mut found: Vec<_> = (0..cells_count).flat_map(found).collect();
+    wanted.sort_unstable();
+    found.sort_unstable();
+    let wrong = found.iter().zip(&wanted).find(|(found, wanted)| found != wanted);
+    let first = wrong.map(|(found, wanted)| found.0.min(wanted.0));
+    let first = first.or((found.len() != wanted.len()).then_some(0))?;
+    let is_missing = |pair: &&(u32, u32)| found.binary_search(pair).is_err();
+    Some(Comparison::Differs {
+        count: wanted.iter().filter(is_missing).count().max(1) as u64,
+        of: wanted.len() as u64,
+        first_row: u64::from(first),
+        what: "(cell, caster) pairs are not in the table made of them; the row is a cell".into(),
+    })
 }
 
 #[cfg(test)]
@@ -325,7 +374,31 @@ mod tests {
             _ => None,
         };
         let slots = |first: u32, second: u32| Array::u32([3], vec![first, second, 0]);
-        assert!(matches!(places(&slots(0, 1), &slots(1, 0), [around; 2]), Comparison::Allowed { .. }));
-        assert!(places(&slots(0, 1), &slots(1, 1), [around; 2]).differs());
+        let of = ["cell", "list_length"];
+        assert!(matches!(places(of, &slots(0, 1), &slots(1, 0), [around; 2]), Comparison::Allowed { .. }));
+        assert!(places(of, &slots(0, 1), &slots(1, 1), [around; 2]).differs());
+    }
+
+    #[test]
+    fn places_of_pairs_and_tables_made_of_them_are_looked_at() {
+        let [length, cell] = [Array::u32([2], vec![2, 1]), Array::u32([4], vec![0, 1, 0, 77])];
+        let [caster, offset] = [Array::u32([4], vec![4, 5, 6, 77]), Array::u32([3], vec![0, 2, 3])];
+        let slots = [[0, 0, 1, 9], [1, 0, 0, 9], [1, 0, 1, 9]].map(|slots| Array::u32([4], slots.to_vec()));
+        let entries = [[4, 6, 5, 0], [6, 4, 5, 1], [4, 4, 5, 0], [4, 5, 6, 0]].map(|of| Array::u32([4], of.to_vec()));
+        let run = |slot: usize, entry: usize| {
+            let arrays = [&length, &cell, &caster, &offset, &slots[slot], &entries[entry]];
+            let ports = ["caster_length", "pair_cell", "pair_caster", "caster_offset", "pair_slot", "caster_entries"];
+            move |port: &str| ports.iter().position(|other| *other == port).map(|place| arrays[place])
+        };
+        let (first, other_order, twice) = (run(0, 0), run(1, 1), run(2, 2));
+        for port in ["pair_cell", "pair_caster"] {
+            assert_eq!(pairs(port, Contract::Superset, [&first, &twice]), Comparison::Equal, "{port}");
+        }
+        let order = pairs("pair_slot", Contract::Superset, [&first, &other_order]);
+        assert!(matches!(order, Comparison::Allowed { is_other_set: false, .. }), "{order:?}");
+        assert!(pairs("pair_slot", Contract::Superset, [&first, &twice]).differs());
+        assert_eq!([misfilled(&first), misfilled(&other_order)], [None, None]);
+        assert!(misfilled(&twice).is_some_and(|wrong| wrong.differs()));
+        assert!(misfilled(&run(0, 3)).is_some(), "a caster in another's cell");
     }
 }

@@ -31,6 +31,13 @@ pub struct Ran {
     pub counts: Vec<u64>,
 }
 
+impl Ran {
+    /// Its time, where one was read: nothing at all where its clock says so, which none of its times tells.
+    pub fn known_millis(&self) -> Option<f64> {
+        self.millis.or((self.reading == Reading::Zero).then_some(0.0))
+    }
+}
+
 /// How stretches of nodes run.
 pub struct How<'a> {
     /// On what.

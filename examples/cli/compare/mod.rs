@@ -18,7 +18,7 @@ use crate::answers::{Answers, errors as errors_of};
 use crate::engine::Machine;
 use crate::record::DeviceRecord;
 use crate::trial::Trial;
-use errors::{Blame, TrueRun, attribute, need_own_truth};
+use errors::{Blame, Truths, attribute};
 use plans::{Difference, differences, shared};
 use ports::PortRow;
 use serde::Serialize;
@@ -65,11 +65,14 @@ pub struct Report {
     pub ports: Vec<PortRow>,
     /// The first node where values begin to differ, in the order of B.
     pub first_difference: Option<String>,
+    /// Light samples of the truth that visible fractions and pictures of both are judged by: the larger number of the two. Bits are
+    /// judged by a truth of each side's own.
+    pub truth_light_samples: Option<usize>,
     /// How wrong A and B are.
     pub errors: Option<[Errors; 2]>,
     /// What the nodes of B are to blame for, most first.
     pub blames: Vec<Blame>,
-    /// Nodes of B that the truth has no values for.
+    /// Nodes of B of which no error is known: the truth has no values for them, or answers do not come from what they make.
     pub not_attributed: Vec<String>,
     /// Which is faster.
     pub timing: Option<Timing>,
@@ -136,6 +139,7 @@ pub fn compare(
         shared: taken,
         ports,
         first_difference,
+        truth_light_samples: None,
         errors: None,
         blames: Vec::new(),
         not_attributed: Vec::new(),
@@ -145,18 +149,17 @@ pub fn compare(
     };
     if let Some(truth) = wanted.truth {
         let (answers_a, answers_b) = (ran_a.answers(a)?, ran_b.answers(b)?);
-        let true_b = TrueRun::new(truth, &answers_b, &b.job, catalogue, machine, progress)?;
-        let true_a = match need_own_truth(&answers_a, &answers_b) {
-            true => Some(TrueRun::new(truth, &answers_a, &a.job, catalogue, machine, progress)?),
-            false => None,
-        };
-        let truth_a = &true_a.as_ref().unwrap_or(&true_b).truth;
-        let errors_b = errors_of(&answers_b, &true_b.truth)?;
+        let jobs = [&a.job, &b.job];
+        let truths = Truths::new(truth, [&answers_a, &answers_b], jobs, catalogue, machine, progress)?;
+        let [truth_a, truth_b] = truths.of_both();
+        let errors_b = errors_of(&answers_b, &truth_b)?;
         if wanted.attribute {
-            (report.blames, report.not_attributed) = attribute(b, &ran_b, &true_b, &errors_b, machine, progress)?;
+            (report.blames, report.not_attributed) =
+                attribute(b, &ran_b, &truths.own_b, &truth_b, &errors_b, machine, progress)?;
         }
-        report.errors = Some([errors_of(&answers_a, truth_a)?, errors_b]);
-        report.truths = Some([truth_a.grey.clone(), true_b.truth.grey.clone()]);
+        report.errors = Some([errors_of(&answers_a, &truth_a)?, errors_b]);
+        report.truth_light_samples = Some(truth_b.grey.light_samples);
+        report.truths = Some([truth_a.grey, truth_b.grey]);
         report.answers = Some([answers_a, answers_b]);
     }
     drop((ran_a, ran_b));

@@ -1,7 +1,7 @@
 //! Values of two runs, node by node: where they begin to differ.
 
 use super::side::{Ran, Side};
-use crate::port_difference::{Around, Comparison, port_difference};
+use crate::port_difference::{Around, Comparison, misfilled, port_difference};
 use serde::Serialize;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::param::Value;
@@ -23,6 +23,9 @@ pub struct PortRow {
     pub comparison: Comparison,
     /// Whether all that the node read was equivalent: else the difference may come from there.
     pub inputs_are_equivalent: bool,
+    /// Whether it is a mask and both sides asked the same: of the same view-samples, light samples and casters. Then tables on the way
+    /// excuse nothing.
+    pub is_same_question: bool,
 }
 
 impl PortRow {
@@ -33,9 +36,9 @@ impl PortRow {
             && !matches!(self.comparison, Comparison::NotCompared { .. })
     }
 
-    /// Whether they do so otherwise than the contract allows.
+    /// Whether values differ otherwise than the contract allows: where they begin to, or in a mask that must be the same.
     pub fn is_fault(&self) -> bool {
-        self.is_origin() && self.comparison.differs()
+        (self.is_origin() || self.is_same_question) && self.comparison.differs()
     }
 }
 
@@ -54,9 +57,10 @@ pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) ->
         }
     }
     let mut uncompared: HashSet<SlotId> = HashSet::new();
-    // Equivalent, and not the same.
+    // Equivalent, and other sets.
     let mut alike: HashSet<SlotId> = HashSet::new();
     let mut rows = Vec::new();
+    let asks_the_same = unequal.is_empty() && QUESTION.iter().all(|quantity| made(a, quantity) == made(b, quantity));
     for (index, node) in b.0.plan.nodes.iter().enumerate() {
         if shared.iter().any(|(of_b, _)| *of_b == index) {
             continue;
@@ -82,7 +86,12 @@ pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) ->
         };
         let inputs_are_equivalent = node.inputs.iter().all(is_equivalent);
         for (port, slot) in &node.outputs {
-            let contract = allowed(twin, node);
+            let is_same_question = *port == "mask" && asks_the_same;
+            // One pass need not repeat itself bit by bit on other tables.
+            let contract = match inputs_are_equivalent {
+                false if *port == "mask" => looser(twin.pass.contract, node.pass.contract),
+                _ => allowed(twin, node),
+            };
             let mut comparison = port_difference(node, port, contract, [around_a, around_b], lights);
             // A mask answers the same question whatever the parameters are.
             if *port != "mask" && have_other_parameters(twin, node) {
@@ -90,17 +99,32 @@ pub fn compare(a: (&Side, &Ran), b: (&Side, &Ran), shared: &[(usize, usize)]) ->
             }
             let follows = inputs_are_equivalent && node.inputs.iter().any(|(_, slot)| alike.contains(slot));
             if follows && TABLES.contains(&node.pass.stage.name) && !comparison.is_equivalent() {
-                comparison = Comparison::Allowed { why: "follows from what it reads".into() };
+                comparison = Comparison::Allowed { why: "follows from what it reads".into(), is_other_set: true };
+                // Tables of other pairs are not comparable with each other: each is with its own pairs.
+                if node.pass.stage.name == "caster_fill"
+                    && let Some(wrong) = misfilled(around_a).or_else(|| misfilled(around_b))
+                {
+                    comparison = wrong;
+                }
             }
             match comparison {
-                Comparison::Equal => {}
+                Comparison::Equal | Comparison::Allowed { is_other_set: false, .. } => {}
                 Comparison::Allowed { .. } => _ = alike.insert(*slot),
                 _ => _ = unequal.insert(*slot),
             }
-            rows.push(PortRow { node: node.id.clone(), port, comparison, inputs_are_equivalent });
+            rows.push(PortRow { node: node.id.clone(), port, comparison, inputs_are_equivalent, is_same_question });
         }
     }
     rows
+}
+
+/// What a mask answers for, beside the graph's inputs.
+const QUESTION: [&str; 6] = ["position", "normal", "triangle_of_sample", "pixel", "sample_state", "caster_state"];
+
+/// The first value of a quantity that a node made.
+fn made<'a>((side, ran): (&Side, &'a Ran), quantity: &str) -> Option<&'a Array> {
+    let slots = side.plan.slots.iter().filter(|slot| slot.port.quantity == quantity);
+    slots.into_iter().find_map(|slot| ran.values.get(&slot.name))
 }
 
 /// Whether a parameter that both have has another value.

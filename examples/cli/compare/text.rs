@@ -27,6 +27,13 @@ pub fn text(report: &Report) -> String {
     text += &ports_text(report);
     if let Some(errors) = &report.errors {
         text += &errors_text(errors);
+        if let (Some(count), [a, b]) = (report.truth_light_samples, report.light_samples)
+            && a != b
+        {
+            text += &format!(
+                "visible fractions and pictures of both against {count} light samples, bits against each one's own light samples\n"
+            );
+        }
     }
     if !report.blames.is_empty() || !report.not_attributed.is_empty() {
         text += &blames_text(report);
@@ -111,7 +118,9 @@ fn blames_text(report: &Report) -> String {
     let mut text = if report.blames.is_empty() { String::new() } else { format!("\n{rows}\n") };
     if !report.not_attributed.is_empty() {
         let nodes = report.not_attributed.join(", ");
-        text += &format!("the truth has no values to put in place of: {nodes}\n");
+        text += &format!(
+            "not attributed, as the truth has no other values for them or no answer comes from them: {nodes}\n"
+        );
     }
     text
 }

@@ -88,7 +88,7 @@ pub fn time<'t>(
             trial.forget();
             millis[place] = (frames.iter().map(|frame| frame.millis).sum::<f64>() / frames_count as f64).max(1e-6);
             if free {
-                nodes.add(order, place, trial, &frames);
+                nodes.add((paired.blocks().len(), order), place, trial, &frames);
             }
         }
         // Warm-up, further frames and making ready count against the budget too.
@@ -120,7 +120,7 @@ pub fn time<'t>(
                     .find(|clock| *clock != "off")
                     .unwrap_or("")
                     .into();
-                nodes.add(order, place, trial, std::slice::from_ref(&frame));
+                nodes.add((block, order), place, trial, std::slice::from_ref(&frame));
             }
             coin.push(millis)?;
             told(block as u64, NODE_BLOCKS as u64);
@@ -143,25 +143,27 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn add(&mut self, order: [Side; 4], place: usize, trial: &Trial, frames: &[Frame]) {
+    /// Takes in what a side's nodes took at `place` of a block, given by its index and order.
+    fn add(&mut self, block: (usize, [Side; 4]), place: usize, trial: &Trial, frames: &[Frame]) {
         for (index, node) in trial.plan().nodes.iter().enumerate() {
-            let times: Option<Vec<f64>> =
-                frames.iter().map(|frame| frame.nodes[index].as_ref().and_then(|ran| ran.millis)).collect();
-            let Some(times) = times.filter(|times| !times.is_empty()) else { continue };
-            let mean = times.iter().sum::<f64>() / times.len() as f64;
-            if !self.blocks.contains_key(&node.id) {
-                self.order.push(node.id.clone());
-            }
-            let blocks = self.blocks.entry(node.id.clone()).or_default();
-            // A block is new at its first side, or at the first side that has the node.
-            let is_new = blocks.last().is_none_or(|(_, millis)| millis[place..].iter().any(Option::is_some));
-            if is_new {
-                blocks.push((order, [None; 4]));
-            }
-            if let Some((_, millis)) = blocks.last_mut() {
-                millis[place] = Some(mean);
-            }
+            let millis = |frame: &Frame| frame.nodes[index].as_ref().and_then(|ran| ran.known_millis());
+            let times: Option<Vec<f64>> = frames.iter().map(millis).collect();
+            let mean = times.filter(|times| !times.is_empty());
+            let mean = mean.map(|times| times.iter().sum::<f64>() / times.len() as f64);
+            self.put(&node.id, block, place, mean);
         }
+    }
+
+    /// A time that is missing leaves its hole where it is: no later one slips into it.
+    fn put(&mut self, node: &str, (block, order): (usize, [Side; 4]), place: usize, millis: Option<f64>) {
+        if !self.blocks.contains_key(node) {
+            self.order.push(node.into());
+        }
+        let blocks = self.blocks.entry(node.into()).or_default();
+        if blocks.len() <= block {
+            blocks.resize(block + 1, (order, [None; 4]));
+        }
+        blocks[block].1[place] = millis;
     }
 
     fn finish(self, settings: &Settings) -> Result<Vec<NodeTiming>, Problem> {
@@ -188,5 +190,29 @@ impl Nodes {
             Ok(NodeTiming { node, a_millis, b_millis, summary })
         };
         order.into_iter().map(of_node).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reading_that_is_missing_moves_no_other_to_another_block() {
+        let mut nodes = Nodes::default();
+        let order = [Side::A, Side::B, Side::B, Side::A];
+        for block in 0..20 {
+            for (place, side) in order.into_iter().enumerate() {
+                let millis = if side == Side::A { 1.0 } else { 2.0 };
+                // In every other block one reading is missing: the last, then the first.
+                let is_missing = block % 2 == 0 && place == if block % 4 == 0 { 3 } else { 0 };
+                nodes.put("node", (block, order), place, (!is_missing).then_some(millis));
+            }
+        }
+        assert_eq!(nodes.blocks["node"].len(), 20);
+        let timed = nodes.finish(&Settings::default()).unwrap();
+        assert_eq!((timed[0].a_millis, timed[0].b_millis), (Some(1.0), Some(2.0)));
+        let summary = timed[0].summary.as_ref().unwrap();
+        assert_eq!((summary.blocks_count, summary.ratio), (10, 2.0));
     }
 }

@@ -141,7 +141,15 @@ pub fn profile(
     let mut statistics = vec![None; plan.nodes.len()];
     if settings.statistics {
         match trial.ready().map(|ready| ready.statistics()).transpose()? {
-            Some(Some(nodes)) => statistics = nodes.into_iter().map(Some).collect(),
+            Some(Some(nodes)) => {
+                let uncounted = plan.nodes.iter().zip(&nodes).filter(|(_, counted)| counted.is_none());
+                let names: Vec<&str> = uncounted.map(|(node, _)| node.id.as_str()).collect();
+                if !names.is_empty() {
+                    let names = names.join(", ");
+                    not_measured.push(format!("statistics of {names}: more passes than a query set holds"));
+                }
+                statistics = nodes;
+            }
             Some(None) => not_measured.push("statistics: the device has no PIPELINE_STATISTICS_QUERY".into()),
             None => not_measured.push("statistics: not all nodes run on wgpu, whole".into()),
         }
