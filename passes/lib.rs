@@ -63,7 +63,7 @@ pub fn source_id(pass: &Pass) -> Option<&'static str> {
 mod tests {
     #[test]
     fn every_pass_has_a_source_of_its_own() {
-        let mut ids: Vec<_> = super::catalogue().passes().map(|pass| super::source_id(pass)).collect();
+        let mut ids: Vec<_> = super::catalogue().passes().map(super::source_id).collect();
         assert!(ids.iter().all(Option::is_some), "a pass is not the folder of its name: {ids:?}");
         let count = ids.len();
         ids.sort();
