@@ -16,6 +16,7 @@ pub fn trials() -> Vec<Trial> {
         Trial::test("chart_points/a_scene_that_comes_later_takes_the_place_of_its_failure", later),
         Trial::test("chart_points/a_wrong_pass_shows_its_error", wrong_pass),
         Trial::test("chart_points/errors_are_those_of_compare", like_compare),
+        Trial::test("chart_points/a_reference_in_sets_agrees_with_one_of_a_single_set", reference),
         Trial::test("chart_points/a_quality_of_one_value_is_no_curve", one_value),
     ]
 }
@@ -156,6 +157,26 @@ fn like_compare() -> Result<(), Failed> {
     let bits = |errors: &Errors| (errors.wrong_bit_share, errors.light_leak_share, errors.shadow_leak_share);
     assert!(other.wrong_bit_share > Some(0.0) && bits(&hard.errors) == bits(&other), "{:?} {other:?}", hard.errors);
     Ok(())
+}
+
+/// Above 4096 light samples the reference is a mean over sets: a little more than the exact answer for one set, and close to it.
+fn reference() -> Result<(), Failed> {
+    let methods = "(graph: \"soft_shafts\", light_samples: 4), (graph: \"soft_shafts\", light_samples: 64)";
+    let errors = |reference: &str| {
+        let place = Place::new(&suite_of(COLUMNS, methods).replace("reference: 16", reference))?;
+        let points = place.points("out", &[])?;
+        assert!(points.iter().all(|point| point.errors.wrong_bit_share == Some(0.0)), "{points:?}");
+        points
+            .iter()
+            .map(|point| point.errors.rmse_penumbra.ok_or("no penumbra".into()))
+            .collect::<Result<Vec<f64>, Failed>>()
+    };
+    let (one_set, sets) = (errors("reference: 4096")?, errors("reference: 8192")?);
+    println!("{one_set:?} and {sets:?}");
+    assert!(one_set != sets, "the second set changes nothing");
+    assert!(sets[0] > 2.0 * sets[1], "more light samples are not better");
+    let is_close = |(a, b): (&f64, &f64)| (a / b - 1.0).abs() < 0.2;
+    if one_set.iter().zip(&sets).all(is_close) { Ok(()) } else { Err("they disagree".into()) }
 }
 
 fn one_value() -> Result<(), Failed> {

@@ -59,7 +59,7 @@ const WRONG_TOLD: &str = r#"a.ron:2:14: `version` is not allowed; expected a who
 a.ron:3:11: `name` is of the wrong type; expected text in quotes; found 3
 a.ron:4:11: `size` is not a picture size; expected WIDTHxHEIGHT, each 1..=16384; found 24
 a.ron:5:5: a suite has no field `backend` (did you mean `backends`?)
-a.ron:6:16: `reference` is not allowed; expected a whole number in 1..=4096; found 5000
+a.ron:6:16: light samples above 4096 come in sets of 4096; expected a multiple of 4096; found 5000
 a.ron:7:13: `rounds` is not allowed; expected a whole number in 1..=1000; found 0
 a.ron:9:9: options of this scene are not understood; expected flags as `shadowgraph render` takes them for scene and light; found unexpected argument '--light-radus' found
 a.ron:10:9: light samples are a method's, not a scene's; found --light-samples 4 (give them as light_samples of methods)
@@ -181,9 +181,10 @@ fn graph_files() -> Result<(), Failed> {
             std::fs::write(&path, graph_text(&variant.choice, variant.light_samples as usize))
                 .map_err(|error| error.to_string())?;
             let file = GraphChoice { graph: path.display().to_string(), ..GraphChoice::default() };
+            let on = if variant.backends == ["wgpu"] { Backend::Wgpu } else { Backend::Cpu };
             for facts in &facts {
                 let id = |choice: &GraphChoice| {
-                    graph_choice::plan(choice, &catalogue, Some(facts), Backend::Cpu, Keep::OutputsOnly)
+                    graph_choice::plan(choice, &catalogue, Some(facts), on, Keep::OutputsOnly)
                         .map(|plan| plan_id(&plan))
                         .map_err(|problems| format!("{}: {problems}", variant.label()))
                 };

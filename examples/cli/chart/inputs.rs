@@ -10,7 +10,7 @@ use crate::engine::Machine;
 use crate::graph_choice;
 use crate::job::Job;
 use shadowgraph_core::array::Array;
-use shadowgraph_core::plan::{Backend, Plan};
+use shadowgraph_core::plan::{Backend, Plan, Slot};
 use shadowgraph_core::problem::{Problem, Problems};
 use shadowgraph_graph::Keep;
 use std::collections::HashMap;
@@ -104,8 +104,16 @@ impl Truths {
         let plan = graph_choice::plan(&choice, how.catalogue, Some(&job.facts), Backend::Cpu, keep)?;
         let progress = |node: &str, done, total| how.bar.set(&format!("reference, {node}"), done, total);
         let sets = (light_samples / MOST_OF_SET) as usize;
-        let outcome = converged(&Machine::new(BackendChoice::Cpu)?, &plan, &job, sets, &progress)?;
-        let mut answers = Answers::of(&plan, &outcome, &job)?;
+        let machine = Machine::new(BackendChoice::Cpu)?;
+        // What is not a mean over sets, such as which view-samples face away, is that of one of them.
+        let mut answers = Answers::of(&plan, &machine.run(&plan, &job, 1, &progress)?, &job)?;
+        let means = converged(&machine, &plan, &job, sets, &progress)?;
+        let mean = |quantity: &str| {
+            let made = |slot: &&Slot| slot.port.quantity == quantity && slot.name.contains('.');
+            let name = &plan.slots.iter().find(made)?.name;
+            plan.slot(name).and_then(|id| means.values.try_get(id)).cloned()
+        };
+        (answers.mask, answers.visible, answers.image) = (None, mean("fraction"), mean("radiance"));
         answers.light_samples = light_samples as usize;
         self.answers.insert(light_samples, answers.clone());
         Ok(answers)

@@ -13,7 +13,8 @@ impl Default for Number {
 }
 
 impl Number {
-    fn word(&mut self, word: u32) {
+    /// Takes in a word.
+    pub fn word(&mut self, word: u32) {
         self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29);
     }
 

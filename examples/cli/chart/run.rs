@@ -316,6 +316,9 @@ fn case<'a>(
             };
             number.text(&point.provenance.graph_hash);
             number.text(&point.provenance.scene_hash);
+            // Times of another machine are other figures.
+            number.text(&format!("{} {}", point.provenance.adapter, point.provenance.driver));
+            number.word(point.provenance.threads as u32);
             Some(plan)
         }
         Err(problems) => {

@@ -57,7 +57,9 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
     }
     let scale = unit_scale(triangles.iter().flatten().chain(light_samples).chain(position));
     let world = World { triangles, lights: light_samples, scale };
-    let casts = |id: usize| receivers.caster_state[id] == 1;
+    // What the tree leaves out must be no neighbour either: a patch that ends there has a border.
+    let is_finite = |id: usize| triangles[id].as_flattened().iter().all(|coordinate| coordinate.is_finite());
+    let casts = |id: usize| receivers.caster_state[id] == 1 && is_finite(id);
     let patches = receivers.patches;
     let (casters, neighbours) = rayon::join(
         || Casters::build(triangles, casts, scale),
