@@ -74,7 +74,8 @@ fn usage(name: &str) -> Result<String, Failed> {
     let command = program.find_subcommand(name).ok_or_else(|| format!("no command {name}"))?;
     let scene = ["scene", "views", "view", "eye", "target", "fov", "size", "view_samples", "help"];
     let is_own = |flag: &&clap::Arg| {
-        let is_scenes = scene.contains(&flag.get_id().as_str()) && name != "chart" || flag.get_id() == "help";
+        let is_scenes = scene.contains(&flag.get_id().as_str()) && !["chart", "stability"].contains(&name)
+            || flag.get_id() == "help";
         !is_scenes && flag.get_help_heading() != Some("Light")
     };
     let mut words = Vec::new();
@@ -118,6 +119,11 @@ const PINNED: &[(&str, &str)] = &[
          --page-only, --json, --quiet",
     ),
     ("merge", "<PARTS>, --out DIR"),
+    (
+        "stability",
+        "<SUITE>=stability, --out DIR=stability_out, --scene NAME, --method NAME, --shard I/N=1/1, --backend BACKEND=auto,
+         --threads THREADS=0, --quiet",
+    ),
     (
         "suggest",
         "--error ERROR, --ms MILLIS, --metric NAME, --suite SUITE, --chart DIR, --on NAME, --out DIR, --backend BACKEND=auto,

@@ -1,7 +1,6 @@
 //! `stability`.
 
 use super::BackendChoice;
-use crate::stability::records::Shard;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -30,7 +29,7 @@ pub struct StabilityArgs {
     pub method: Vec<String>,
     /// Do one of N parts of the cases, from 1
     #[arg(long, default_value = "1/1", value_name = "I/N")]
-    pub shard: Shard,
+    pub shard: String,
     /// Where nodes of methods run that are not pinned; view-samples and truths are always made on the CPU
     #[arg(long, value_enum, default_value = "auto")]
     pub backend: BackendChoice,

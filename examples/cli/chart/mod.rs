@@ -1,7 +1,7 @@
 //! Milliseconds against error for every variant of a suite on every scene: measured in pieces that survive a kill, shown as one page.
 
 mod inputs;
-mod number;
+pub mod number;
 pub mod pictures;
 pub mod points;
 pub mod run;

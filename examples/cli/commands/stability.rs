@@ -3,9 +3,8 @@
 use crate::args::{BackendChoice, StabilityArgs};
 use crate::engine::Machine;
 use crate::report::Bar;
-use crate::stability::records::Records;
+use crate::stability::records::{Records, Shard};
 use crate::stability::run::Runner;
-use crate::stability::started::now;
 use crate::stability::suite::Suite;
 use crate::stability::text;
 use crate::{file_problem, usage_problem};
@@ -17,7 +16,7 @@ use shadowgraph_core::problem::{Kind, Problem, Problems};
 use shadowgraph_graph::nearest;
 use std::cell::Cell;
 use std::io::IsTerminal;
-use std::time::Instant;
+use std::time::{Instant, SystemTime};
 
 /// Lines for those who read along in a file.
 const SECONDS_BETWEEN_LINES: f64 = 15.0;
@@ -32,9 +31,10 @@ pub fn text(catalogue: &Catalogue, args: &StabilityArgs) -> Result<(String, bool
     let suite = Suite::load(&args.suite)?;
     known("--scene", &args.scene, suite.scenes.iter().map(|scene| scene.name.as_str()))?;
     known("--method", &args.method, suite.methods.iter().map(|method| method.name.as_str()))?;
+    let shard = Shard::read(&args.shard)?;
     let mut machine = Machine::new(args.backend)?;
     let cpu = Machine::new(BackendChoice::Cpu)?;
-    let mut records = Records::open(&args.out, args.shard)?;
+    let mut records = Records::open(&args.out, shard)?;
     let progress = Progress::new(args.quiet);
     let mut runner = Runner {
         suite: &suite,
@@ -44,8 +44,8 @@ pub fn text(catalogue: &Catalogue, args: &StabilityArgs) -> Result<(String, bool
         folder: &args.out,
         methods: &args.method,
         scenes: &args.scene,
-        shard: args.shard,
-        started: now(),
+        shard,
+        started: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         progress: &|what, done, total| progress.tell(what, done, total),
     };
     let asked = runner.run(&mut records)?;

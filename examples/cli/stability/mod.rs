@@ -2,11 +2,9 @@
 
 pub mod edge;
 pub mod frame;
-pub mod id;
 pub mod judge;
 pub mod place;
 pub mod records;
 pub mod run;
-pub mod started;
 pub mod suite;
 pub mod text;

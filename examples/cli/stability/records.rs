@@ -1,5 +1,6 @@
 //! Records in a folder: one file a run, or a shard, that is only appended to. A run that was killed goes on where it was.
 
+use crate::chart::suite::shard;
 use crate::file_problem;
 use shadowgraph_charts::lines;
 use shadowgraph_charts::model::Stability;
@@ -11,34 +12,30 @@ use std::path::{Path, PathBuf};
 /// Which part of the cases a run does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// From 1.
+    /// From 0.
     pub index: usize,
     /// Parts in all.
     pub count: usize,
 }
 
-impl std::str::FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-        match numbers {
-            Some((index, count)) if 1 <= index && index <= count => Ok(Self { index, count }),
-            _ => Err("expected I/N with I in 1..=N, such as 2/4".into()),
-        }
-    }
-}
-
 impl Shard {
+    /// `I/N`.
+    ///
+    /// # Errors
+    /// Anything else.
+    pub fn read(text: &str) -> Result<Self, Problem> {
+        shard(text).map(|[index, count]| Self { index, count })
+    }
+
     /// Whether it does the case of that position.
     pub fn takes(self, position: usize) -> bool {
-        position % self.count == self.index - 1
+        position % self.count == self.index
     }
 
     fn file(self) -> String {
         match self.count {
             1 => "records.jsonl".into(),
-            count => format!("records.{}of{count}.jsonl", self.index),
+            count => format!("records.{}of{count}.jsonl", self.index + 1),
         }
     }
 }
@@ -126,12 +123,9 @@ mod tests {
 
     #[test]
     fn shards_are_parts_that_make_a_whole() {
-        let shards: Vec<Shard> = ["1/3", "2/3", "3/3"].iter().map(|text| text.parse().unwrap()).collect();
+        let shards: Vec<Shard> = ["1/3", "2/3", "3/3"].iter().map(|text| Shard::read(text).unwrap()).collect();
         for position in 0..10 {
             assert_eq!(shards.iter().filter(|shard| shard.takes(position)).count(), 1, "{position}");
-        }
-        for wrong in ["0/3", "4/3", "1", "a/b", "1/0", "-1/2"] {
-            assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
         }
     }
 }

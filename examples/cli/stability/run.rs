@@ -1,12 +1,12 @@
 //! Runs a suite: case by case, in each all methods on the same frames, with one truth for all of them.
 
 use super::frame::{Bench, Frame};
-use super::id::Hash;
 use super::judge::{Motion, decide, judge};
 use super::records::{PICTURES, Records, Shard};
 use super::suite::{Method, SceneEntry, SequenceEntry, Suite};
 use super::{place, suite};
 use crate::answers::{Answers, Truth};
+use crate::chart::number::Number;
 use crate::engine::Machine;
 use crate::graph_choice;
 use crate::outcome::Outcome;
@@ -15,7 +15,7 @@ use shadowgraph_charts::model::{Expected, Provenance, Stability, StabilityFrame,
 use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::plan::{Plan, Producer};
 use shadowgraph_core::problem::{Kind, Problem, Problems};
-use shadowgraph_graph::Keep;
+use shadowgraph_graph::{Keep, plan_id};
 use shadowgraph_passes::ports::LIST_LENGTH;
 use std::collections::HashMap;
 use std::path::Path;
@@ -101,13 +101,16 @@ impl Runner<'_> {
     /// Plans a method for every frame.
     fn ready(&mut self, case: &Case, method: &Method) -> Result<Ready, Problem> {
         let device = self.machine.record();
+        let mut id = Number::default();
         // Two methods may come to one plan, on a light that is not planar, say: the name keeps their records apart.
-        let mut id = Hash::new().text(&method.name).text(&case.entry.name).text(&case.entry.choice.scene);
-        id = id.text(&self.suite.size).text(device.backend);
-        id = id.text(&device.adapter).text(&device.driver).words(&[self.suite.contact_ulps.to_bits()]);
-        id = id.words(&[method.light_samples, method.truth_light_samples, case.along.change as u32]);
+        for text in [&method.name, &case.entry.name, &case.entry.choice.scene, &self.suite.size] {
+            id.text(text);
+        }
+        id.text(&format!("{} {} {}", device.backend, device.adapter, device.driver));
+        id.text(&format!("{} {}", method.light_samples, method.truth_light_samples));
+        id.text(&format!("{:?} {}", case.along.change, self.suite.contact_ulps));
         let mut plans = Ok(Vec::new());
-        let (mut lacks, mut scene) = (None, Hash::new());
+        let (mut lacks, mut scene) = (None, None);
         for frame in &case.frames {
             let job = frame.job(method.light_samples)?;
             if let Some(fact) = method.needs.as_ref().filter(|fact| job.facts.get(fact) != Some(true)) {
@@ -117,26 +120,31 @@ impl Runner<'_> {
             let plan =
                 graph_choice::plan(&method.choice, self.catalogue, Some(&job.facts), backend, Keep::AllLivePorts)
                     .and_then(|plan| self.machine.ready_for(&plan).map_err(Problems::from).map(|()| plan));
-            let inputs = Hash::new().inputs(&job);
-            if scene == Hash::new() {
-                scene = inputs;
+            let mut inputs = Number::default();
+            for (name, array) in job.inputs() {
+                inputs.text(&name);
+                inputs.array(&array);
             }
-            id = id.text(&inputs.digits()).text(&frame.value.to_string());
+            id.text(&inputs.hex());
+            id.text(&frame.value.to_string());
+            scene.get_or_insert(inputs.hex());
             match plan {
                 Ok(plan) => {
-                    id = id.plan(&plan);
+                    id.text(&plan_id(&plan));
+                    let passes = plan.nodes.iter().map(|node| node.pass);
+                    passes.filter_map(shadowgraph_passes::source_id).for_each(|source| id.text(source));
                     plans = plans.map(|mut plans: Vec<Plan>| {
                         plans.push(plan);
                         plans
                     });
                 }
                 Err(problems) => {
-                    id = id.text(&problems.to_string());
+                    id.text(&problems.to_string());
                     plans = plans.and(Err(problems));
                 }
             }
         }
-        Ok(Ready { id: id.digits(), plans, lacks, scene: scene.digits() })
+        Ok(Ready { id: id.hex(), plans, lacks, scene: scene.unwrap_or_default() })
     }
 
     /// Runs a method on every frame of a case.
@@ -194,10 +202,10 @@ impl Runner<'_> {
             expected,
             expected_source: why,
             provenance: Provenance {
-                graph_hash: plan.map(shadowgraph_graph::plan_id).unwrap_or_default(),
+                graph_hash: plan.map(plan_id).unwrap_or_default(),
                 scene_hash: ready.scene.clone(),
                 program_version: env!("CARGO_PKG_VERSION").into(),
-                commit: String::new(),
+                commit: env!("SHADOWGRAPH_COMMIT").into(),
                 adapter: device.adapter,
                 driver: device.driver,
                 adapter_type: device.adapter_type,

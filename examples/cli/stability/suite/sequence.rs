@@ -33,7 +33,7 @@ pub const CHANGES: [(&str, Sequence); 10] = [
 /// What the value of a change is, its unit, and the values it may have.
 pub fn parameter(change: Sequence) -> (&'static str, &'static str, [f64; 2]) {
     match change {
-        Sequence::Still => ("nothing", "", [0.0, 0.0]),
+        Sequence::Still => ("still", "", [0.0, 0.0]),
         Sequence::LightOrbit => ("light angle", "degrees", [-360.0, 360.0]),
         Sequence::CameraPan => ("camera turn", "pixels", [-1000.0, 1000.0]),
         Sequence::Zoom => ("distance left to a shadow edge", "", [1e-6, 1.0]),
