@@ -1,11 +1,17 @@
 //! What `compare` promises: planted faults are found and named, differences by design are no faults, a slower node is called slower
 //! and a graph is not called different from itself.
 
-use crate::bench::{compare_args, verify_args};
+use crate::bench::{compare_args, job_lit, render_args, verify_args};
 use crate::{gpu, planted};
 use libtest_mimic::{Failed, Trial};
 use serde_json::Value;
-use shadowgraph::commands;
+use shadowgraph::args::BackendChoice;
+use shadowgraph::engine::Machine;
+use shadowgraph::stretch::How;
+use shadowgraph::{commands, graph_choice};
+use shadowgraph_core::plan::Backend;
+use shadowgraph_core::problem::Problem;
+use shadowgraph_graph::Keep;
 
 /// All of them.
 pub fn trials() -> Vec<Trial> {
@@ -20,6 +26,7 @@ pub fn trials() -> Vec<Trial> {
         Trial::test("compare/other_light_samples_are_told_and_judged_by_a_truth_of_their_own", light_samples),
         Trial::test("compare/light_samples_that_turn_from_pixel_to_pixel_are_compared", jitter),
         gpu::trial("compare/nodes_on_a_device_are_compared_and_timed".into(), |_| on_device()),
+        gpu::trial("compare/transfers_between_backends_count_in_frames".into(), |_| transfers()),
         Trial::test("compare/errors_are_traced_to_the_node_that_makes_them", attribution),
         Trial::test("compare/graphs_without_answers_are_compared_and_not_judged", without_answers),
         Trial::test("compare/pictures_are_written_and_named", pictures),
@@ -270,6 +277,26 @@ fn on_device() -> Result<(), Failed> {
     assert!(is_allowed && report["differences"][0]["what"] == "backend", "{report}");
     assert_eq!(port(&report, "visibility", "mask")?["comparison"]["is"], "equal");
     assert_eq!(report["timing"]["nodes"].as_array().map(Vec::len), Some(14));
+    Ok(())
+}
+
+/// A frame on both backends takes longer than its stretches by what goes up and down; one on a single backend does not.
+fn transfers() -> Result<(), Failed> {
+    let text = |problem: Problem| Failed::from(problem.to_string());
+    let (catalogue, job) = (planted::catalogue(), job_lit("builtin:columns", "48x40", &[]));
+    for (on, is_mixed) in [(&[][..], false), (&["--on", "visibility=wgpu"], true)] {
+        let args = render_args(&[&["hard"], on].concat()).graph;
+        let plan = graph_choice::plan(&args, &catalogue, Some(&job.facts), Backend::Cpu, Keep::OutputsOnly)
+            .map_err(|problems| problems.to_string())?;
+        let mut machine = Machine::new(BackendChoice::Cpu).map_err(text)?;
+        machine.ready_for(&plan).map_err(text)?;
+        let how = How { is_warmed_up: true, ..How::once(&machine, &job, &|_, _, _| {}) };
+        let (frame, _) = machine.frame(&plan, &[], &how).map_err(text)?;
+        let nodes: f64 = frame.nodes.iter().flatten().filter_map(|ran| ran.millis).sum();
+        let between = frame.between_millis;
+        assert_eq!(between > 0.0, is_mixed, "{between} ms between stretches");
+        assert!(frame.millis >= nodes + between, "{} ms of {nodes} and {between}", frame.millis);
+    }
     Ok(())
 }
 

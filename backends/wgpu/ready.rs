@@ -11,6 +11,7 @@ use shadowgraph_core::plan::{Grown, Plan, SlotId};
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_core::reading::Reading;
 use std::ops::Range;
+use std::time::Instant;
 
 /// Consecutive nodes of a plan with their memory, pipelines and inputs on the device.
 #[derive(Debug)]
@@ -107,12 +108,41 @@ impl Ready<'_> {
         self.prepared.bytes()
     }
 
+    /// Uploads the values of inputs that `is_wanted`, by slot of the whole plan, once more, waits, and returns how long that took by
+    /// the host's clock, milliseconds: memory and pipelines are ready by now, so it is the transfer alone.
+    ///
+    /// # Errors
+    /// What the device reports; `value` has none for an input.
+    pub fn upload_again<'a>(
+        &self,
+        value: &dyn Fn(SlotId) -> Option<&'a Array>,
+        is_wanted: impl Fn(SlotId) -> bool,
+    ) -> Result<f64, Problem> {
+        let inputs = self.segment.inputs(value)?;
+        let wanted: Vec<_> = inputs.into_iter().filter(|(slot, _)| is_wanted(self.segment.slots[*slot])).collect();
+        if wanted.is_empty() {
+            return Ok(0.0);
+        }
+        let begin = Instant::now();
+        scoped(&self.prepared.device, || self.session.upload(&self.prepared, &wanted))?;
+        Ok(begin.elapsed().as_secs_f64() * 1e3)
+    }
+
     /// Values of kept slots, and of those that a node after these reads, by slot of the whole plan.
     ///
     /// # Errors
     /// What the device reports.
     pub fn arrays(&self) -> Result<Vec<(SlotId, Array)>, Problem> {
-        let arrays = scoped(&self.prepared.device, || self.session.kept(&self.prepared))?;
+        self.arrays_of(|_| true)
+    }
+
+    /// As [`Ready::arrays`], of slots of the whole plan that `is_wanted`.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn arrays_of(&self, is_wanted: impl Fn(SlotId) -> bool) -> Result<Vec<(SlotId, Array)>, Problem> {
+        let is_wanted = |slot: SlotId| is_wanted(self.segment.slots[slot]);
+        let arrays = scoped(&self.prepared.device, || self.session.kept(&self.prepared, is_wanted))?;
         Ok(arrays.into_iter().map(|(slot, array)| (self.segment.slots[slot], array)).collect())
     }
 

@@ -55,7 +55,7 @@ impl Session {
             // Atomics may need a row more in a later frame.
             if verdict.grown.is_empty() || attempts >= options.regrow {
                 let mut outcome = outcome(&prepared, &frames, &status, clock);
-                outcome.arrays = scoped(&self.device, || self.kept(&prepared))?;
+                outcome.arrays = scoped(&self.device, || self.kept(&prepared, |_| true))?;
                 outcome.grown = grown;
                 return Ok((outcome, verdict.problem));
             }
@@ -108,6 +108,16 @@ impl Session {
         inputs: &[(SlotId, &Array)],
         options: &Options,
     ) -> Result<(Times, Vec<u32>), Problem> {
+        self.upload(prepared, inputs)?;
+        if options.poison {
+            prepared.poison(&self.queue);
+        }
+        wait(&self.device, Some(self.queue.submit([])))?;
+        Ok((self.frame(prepared, self.clock(options.timers))?, self.status(prepared)?))
+    }
+
+    /// Writes the values of inputs, and waits until they are there.
+    pub(crate) fn upload(&self, prepared: &Prepared, inputs: &[(SlotId, &Array)]) -> Result<(), Problem> {
         for (slot, array) in inputs {
             prepared.upload_any(&self.queue, *slot, array)?;
             // Written values are staged until a submission is done: large ones must not pile up.
@@ -115,11 +125,7 @@ impl Session {
                 wait(&self.device, Some(self.queue.submit([])))?;
             }
         }
-        if options.poison {
-            prepared.poison(&self.queue);
-        }
-        wait(&self.device, Some(self.queue.submit([])))?;
-        Ok((self.frame(prepared, self.clock(options.timers))?, self.status(prepared)?))
+        wait(&self.device, Some(self.queue.submit([])))
     }
 
     /// Whose clock times nodes here, if timers are on.
@@ -190,11 +196,15 @@ impl Session {
         read_words(&self.device, &self.queue, &status, 0, count)
     }
 
-    pub(crate) fn kept(&self, prepared: &Prepared) -> Result<Vec<(SlotId, Array)>, Problem> {
+    pub(crate) fn kept(
+        &self,
+        prepared: &Prepared,
+        is_wanted: impl Fn(SlotId) -> bool,
+    ) -> Result<Vec<(SlotId, Array)>, Problem> {
         let bound = Bound::none(prepared);
         let mut arrays = Vec::new();
         for (id, slot) in prepared.plan.slots.iter().enumerate() {
-            if let (true, Some(part)) = (slot.keep, prepared.layout.slot(id)) {
+            if let (true, Some(part)) = (slot.keep && is_wanted(id), prepared.layout.slot(id)) {
                 arrays.push((id, read_part(&bound, &self.queue, part, slot.element())?));
             }
         }

@@ -11,7 +11,7 @@ pub struct Outcome {
     pub values: Store,
     /// Nodes in the order of the plan.
     pub nodes: Vec<NodeRecord>,
-    /// Whole runs, wall clock, milliseconds, in order of time; one median of all where the device repeated them.
+    /// Whole runs, host clock, milliseconds, in order of time: see [`crate::stretch::Frame::millis`] for what counts; one median of all where the device repeated them.
     pub frames_millis: Vec<f64>,
     /// Timed runs; with more than one there was a warm-up.
     pub runs_count: u32,

@@ -7,7 +7,7 @@ use crate::outcome::{Outcome, Spread};
 use crate::ranges::{self, Ranges};
 use shadowgraph_core::array::Array;
 use shadowgraph_core::pass::CounterKind;
-use shadowgraph_core::plan::{Backend, Plan};
+use shadowgraph_core::plan::{Backend, Plan, Producer, SlotId};
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::reading::Reading;
 use shadowgraph_cpu::{Progress, Store};
@@ -70,28 +70,41 @@ impl<'a> How<'a> {
         store: &mut Store,
         frame: &mut Frame,
     ) -> Result<(), Problem> {
-        let (millis, runs) = match plan.nodes[nodes.start].on {
-            Backend::Cpu => run_cpu(plan, nodes, self.job.image, store, self.progress)?,
-            Backend::Wgpu => self.run_wgpu(plan, nodes, store)?,
-        };
-        frame.add(plan, millis, runs);
-        Ok(())
+        match plan.nodes[nodes.start].on {
+            Backend::Cpu => {
+                let (millis, runs) = run_cpu(plan, nodes, self.job.image, store, self.progress)?;
+                frame.add(plan, millis, runs);
+                Ok(())
+            }
+            Backend::Wgpu => self.run_wgpu(plan, nodes, store, frame),
+        }
     }
 
-    fn run_wgpu(&self, plan: &Plan, nodes: Range<usize>, store: &mut Store) -> Stretch {
+    /// Transfers count as lying between stretches: up, of what nodes before these made, and down, of what nodes after them read.
+    fn run_wgpu(&self, plan: &Plan, nodes: Range<usize>, store: &mut Store, frame: &mut Frame) -> Result<(), Problem> {
         let options = Options { timers: self.timers, ..self.options.clone() };
         let session = self.machine.session()?;
+        let later = &plan.nodes[nodes.end..];
+        let is_read_later = |slot: SlotId| later.iter().any(|node| node.inputs.iter().any(|(_, read)| *read == slot));
+        let is_made = |slot: SlotId| matches!(plan.slots[slot].producer, Producer::Node(_));
         let ready = session.ready(plan, nodes, &|slot| store.try_get(slot), self.job.image, &options)?;
         let frames = match self.is_warmed_up {
             true => (0..self.repeat).map(|_| ready.frame(self.timers)).collect::<Result<_, _>>()?,
             false => vec![ready.first()],
         };
         let runs = ran(&ready, &frames)?;
-        for (slot, array) in ready.arrays()? {
+        frame.between(ready.upload_again(&|slot| store.try_get(slot), is_made)?);
+        let millis: Vec<f64> = frames.iter().map(|frame| frame.millis).collect();
+        frame.add(plan, Spread::of(&millis).median, runs);
+        let begin = Instant::now();
+        let read_later = ready.arrays_of(is_read_later)?;
+        if !read_later.is_empty() {
+            frame.between(begin.elapsed().as_secs_f64() * 1e3);
+        }
+        for (slot, array) in read_later.into_iter().chain(ready.arrays_of(|slot| !is_read_later(slot))?) {
             store.put(slot, array);
         }
-        let millis: Vec<f64> = frames.iter().map(|frame| frame.millis).collect();
-        Ok((Spread::of(&millis).median, runs))
+        Ok(())
     }
 
     /// Nodes that look at everything once, then the others over one part of the view-samples after another.
@@ -115,6 +128,7 @@ impl<'a> How<'a> {
         let parts = self.parts(&taken, pixels, plan, store, count);
         let mut made: Vec<Vec<(Array, &[usize])>> = vec![Vec::new(); kept.len()];
         for (set, rows) in &parts {
+            let begin = Instant::now();
             let of_set = self.job.set_inputs(*set);
             let mut part = Store::new(plan);
             for slot in &taken {
@@ -126,6 +140,7 @@ impl<'a> How<'a> {
                 };
                 part.put(*slot, array);
             }
+            frame.between(begin.elapsed().as_secs_f64() * 1e3);
             for stretch in ranges.stretches(plan, true) {
                 self.stretch(plan, stretch, &mut part, frame)?;
             }
@@ -133,11 +148,13 @@ impl<'a> How<'a> {
                 made.extend(part.take(*slot).map(|array| (array, rows.as_slice())));
             }
         }
+        let begin = Instant::now();
         for (made, slot) in made.into_iter().zip(kept) {
             if let Some(array) = ranges::join(&plan.slots[slot].port, made) {
                 store.put(slot, array);
             }
         }
+        frame.between(begin.elapsed().as_secs_f64() * 1e3);
         Ok(())
     }
 
@@ -174,18 +191,27 @@ const PIXEL: &str = "pixel";
 
 /// One run of all nodes.
 pub struct Frame {
-    /// All stretches together, without what lies between them.
+    /// All stretches together, and the transfers, gathering and joining between them; without making memory and pipelines ready, and
+    /// without what a run as a whole leaves out too: uploads of the graph's inputs, reading back what no later node reads.
     pub millis: f64,
+    /// Of these, what lies between stretches, by the host's clock: values made by nodes that go up or down, rows gathered and joined.
+    pub between_millis: f64,
     /// By node. One that runs over several ranges has its times, bytes and counts added up; of largest counts it has the largest.
     pub nodes: Vec<Option<Ran>>,
-    /// Each time a node ran: its index, and when, milliseconds since the first stretch began. What lies between stretches is left out.
+    /// Each time a node ran: its index, and when, milliseconds of [`Frame::millis`] since its begin.
     pub pieces: Vec<(usize, Reading)>,
 }
 
 impl Frame {
     /// Nothing has run.
     pub fn new(plan: &Plan) -> Self {
-        Self { millis: 0.0, nodes: plan.nodes.iter().map(|_| None).collect(), pieces: Vec::new() }
+        Self { millis: 0.0, between_millis: 0.0, nodes: plan.nodes.iter().map(|_| None).collect(), pieces: Vec::new() }
+    }
+
+    /// Takes in time spent between stretches.
+    pub fn between(&mut self, millis: f64) {
+        self.millis += millis;
+        self.between_millis += millis;
     }
 
     /// Takes a stretch in.

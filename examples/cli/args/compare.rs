@@ -63,13 +63,15 @@ pub struct CompareArgs {
     /// Compare answers only
     #[arg(long, help_heading = "Timing")]
     pub no_timing: bool,
-    /// The graph that is right; without it truth_hard for one light sample, else truth_soft
+    /// The graph that is right; without it truth_hard for one light sample, else truth_soft. Visible fractions of both are judged with
+    /// the larger number of light samples of the two, bits with each one's own
     #[arg(long, help_heading = "Errors", value_name = "GRAPH")]
     pub truth: Option<String>,
     /// Judge neither A nor B against a truth
     #[arg(long, help_heading = "Errors", conflicts_with = "attribute")]
     pub no_truth: bool,
-    /// In B, replace the output of one node at a time by the truth's, and report how much of the error goes away
+    /// In B, replace the output of one node at a time by the truth's, and report how much of the error goes away;
+    /// view-samples, bent_light and shade are named as not attributed
     #[arg(long, help_heading = "Errors")]
     pub attribute: bool,
     /// Run A's nodes on the CPU and on wgpu by turns until the node is found that makes them differ; nothing else is compared.
