@@ -40,7 +40,7 @@ pub use sequence::{CHANGES, SequenceEntry, parameter};
 use crate::file_problem;
 use shadowgraph_charts::model::{Expected, Sequence};
 use shadowgraph_core::problem::{Kind, Problem, Problems};
-use shadowgraph_graph::{Field, Name, Reader, Source, Tree, nearest, read_ron};
+use shadowgraph_graph::{Data, Field, Name, Reader, Source, Tree, nearest, read_ron};
 use std::path::Path;
 
 /// The suite that comes with the program.
@@ -138,19 +138,22 @@ fn suite(tree: &Tree, reader: &mut Reader) -> Option<Suite> {
         Some(items)
     };
     let mut scenes: Vec<SceneEntry> = Vec::new();
-    for item in list(reader, "scenes").unwrap_or_default() {
+    let scene_items = list(reader, "scenes").unwrap_or_default();
+    for item in scene_items {
         let Some(entry) = scene::read(item, reader, &size) else { continue };
         unique(&entry.name, scenes.iter().map(|scene| scene.name.as_str()), "scene", item, reader);
         scenes.push(entry);
     }
     let mut methods: Vec<Method> = Vec::new();
-    for item in list(reader, "methods").unwrap_or_default() {
+    let method_items = list(reader, "methods").unwrap_or_default();
+    for item in method_items {
         let Some(entry) = method::read(item, reader) else { continue };
         unique(&entry.name, methods.iter().map(|method| method.name.as_str()), "method", item, reader);
         methods.push(entry);
     }
-    let scene_names: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
-    let method_names: Vec<&str> = methods.iter().map(|method| method.name.as_str()).collect();
+    // Of entries that have mistakes too: who names one of those makes no mistake.
+    let scene_names: Vec<&str> = scene_items.iter().filter_map(|item| written(item, &["name"])).collect();
+    let method_names: Vec<&str> = method_items.iter().filter_map(|item| written(item, &["name", "graph"])).collect();
     let mut sequences: Vec<SequenceEntry> = Vec::new();
     for item in list(reader, "sequences").unwrap_or_default() {
         let Some(entry) = sequence::read(item, reader, &scene_names) else { continue };
@@ -180,6 +183,16 @@ fn unique<'a>(name: &str, mut earlier: impl Iterator<Item = &'a str>, what: &str
     if earlier.any(|earlier| earlier == name) {
         let problem = Problem::new(Kind::Duplicate, format!("{what} {name:?} is named twice"));
         reader.problem(at.span, problem.remedy("give each a `name` of its own"));
+    }
+}
+
+/// The text of the first of these fields that an entry has.
+fn written<'t>(entry: &'t Tree, fields: &[&str]) -> Option<&'t str> {
+    let Data::Struct(all) = &entry.data else { return None };
+    let found = fields.iter().find_map(|name| all.iter().find(|field| field.name == *name))?;
+    match &found.value.data {
+        Data::Text(text) => Some(text),
+        _ => None,
     }
 }
 

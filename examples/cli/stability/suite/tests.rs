@@ -88,7 +88,7 @@ s.ron:20:9: a method has no graph; expected graph: ..
 s.ron:20:9: a method has no judge; expected judge: ..
 s.ron:22:14: an expectation has no why; expected why: ..
 s.ron:22:19: `is` is of the wrong type; expected MustHold or ExpectedToFail or Open; found MayHold
-s.ron:22:39: the suite has no method of this name; found hadr (did you mean pcf?)
+s.ron:22:38: the suite has no method of this name; found hadr (did you mean hard?)
 s.ron:22:57: `change` is of the wrong type; expected Still or LightOrbit or CameraPan or Zoom or WorldScale or FarFromOrigin or GrowingLight or Tessellation or ClosingContact or OpeningMeshes; found Zom"#;
     assert_eq!(problems, expected);
 }
