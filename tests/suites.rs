@@ -3,9 +3,10 @@
 use crate::bench::job;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::GraphChoice;
-use shadowgraph::chart::suite::{Suite, shard};
+use shadowgraph::chart::suite::Suite;
 use shadowgraph::chart::variant::Variant;
 use shadowgraph::graph_choice;
+use shadowgraph::shard::Shard;
 use shadowgraph::suggest::graph_text;
 use shadowgraph_core::plan::Backend;
 use shadowgraph_graph::{Keep, Source, plan_id};
@@ -200,9 +201,10 @@ fn graph_files() -> Result<(), Failed> {
 }
 
 fn shards() -> Result<(), Failed> {
-    assert_eq!(shard("2/4").map_err(|problem| problem.to_string())?, [1, 4]);
-    for wrong in ["0/4", "5/4", "1", "a/b", "1/2/3", "1/0", ""] {
-        let problem = shard(wrong).err().map(|problem| problem.to_string()).unwrap_or_default();
+    let part = Shard::read("2/4").map_err(|problem| problem.to_string())?;
+    assert_eq!([part.index, part.count], [2, 4]);
+    for wrong in ["0/4", "5/4", "1", "a/b", "1/2/3", "1/x/2", "1/2/", "1/0", ""] {
+        let problem = Shard::read(wrong).err().map(|problem| problem.to_string()).unwrap_or_default();
         let says = "command line: --shard is no part of a whole; expected I/N, with I from 1 to N";
         assert!(problem.starts_with(says), "{wrong}: {problem}");
     }

@@ -24,6 +24,7 @@ pub mod profile;
 pub mod ranges;
 pub mod record;
 pub mod report;
+pub mod shard;
 pub mod stability;
 pub mod stretch;
 pub mod suggest;

@@ -1,7 +1,6 @@
 //! `chart` and `merge`.
 
 use super::BackendChoice;
-use crate::stability::records::Shard;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -30,7 +29,7 @@ pub struct ChartArgs {
     pub scene: Vec<String>,
     /// Only part I of N: of the scenes, or of each scene's variants where there are fewer scenes than parts
     #[arg(long, value_name = "I/N", default_value = "1/1")]
-    pub shard: Shard,
+    pub shard: String,
     /// Where nodes run that are not pinned, if the suite does not say
     #[arg(long, value_enum, default_value = "auto")]
     pub backend: BackendChoice,

@@ -13,7 +13,7 @@ use crate::engine::Machine;
 use crate::graph_choice;
 use crate::record::WGPU_VERSION;
 use crate::report::Bar;
-use crate::stability::records::Shard;
+use crate::shard::Shard;
 use crate::stretch::Frame;
 use crate::trial::Trial;
 use shadowgraph_charts::check::Record;
@@ -92,7 +92,7 @@ pub fn run(suite: &Suite, store: &mut Store, how: &How) -> Result<Vec<String>, P
     let scenes: Vec<&SceneEntry> = scenes.collect();
     let (scenes, how) = if scenes.len() >= how.shard.count {
         let own = scenes.into_iter().enumerate().filter(|(index, _)| how.shard.takes(*index)).map(|(_, scene)| scene);
-        (own.collect::<Vec<_>>(), &How { shard: Shard { index: 1, count: 1 }, ..*how })
+        (own.collect::<Vec<_>>(), &How { shard: Shard::WHOLE, ..*how })
     } else {
         (scenes, how)
     };

@@ -7,6 +7,7 @@ use crate::chart::suite::Suite;
 use crate::chart::{points, store};
 use crate::compare::text::figure;
 use crate::report::{Bar, align_right, table};
+use crate::shard::Shard;
 use crate::usage_problem;
 use shadowgraph_charts::model::Point;
 use shadowgraph_core::pass::Catalogue;
@@ -27,12 +28,13 @@ pub fn text(catalogue: &Catalogue, args: &ChartArgs) -> Result<String, Problems>
         let problem = usage_problem("--scene names no scene of the suite").expected(known.join(", ")).found(name);
         return Err(problem.into());
     }
+    let shard = Shard::read(&args.shard)?;
     let _lock = Lock::take(&args.out)?;
     let mut store = Store::open(&args.out)?;
     tell(&mut store);
     if !args.page_only {
         let bar = Bar::new(args.quiet);
-        let how = How { catalogue, backend: args.backend, shard: args.shard, scenes: &args.scene, bar: &bar };
+        let how = How { catalogue, backend: args.backend, shard, scenes: &args.scene, bar: &bar };
         run(&suite, &mut store, &how)?;
         drop(bar);
         tell(&mut store);

@@ -3,7 +3,8 @@
 use crate::args::{BackendChoice, StabilityArgs};
 use crate::engine::Machine;
 use crate::report::Bar;
-use crate::stability::records::{Records, Shard};
+use crate::shard::Shard;
+use crate::stability::records::Records;
 use crate::stability::run::Runner;
 use crate::stability::suite::Suite;
 use crate::stability::text;

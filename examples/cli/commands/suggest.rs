@@ -8,7 +8,7 @@ use crate::chart::suite::{SceneEntry, Suite};
 use crate::chart::variant::Variant;
 use crate::job::Job;
 use crate::report::{Bar, align_right, table};
-use crate::stability::records::Shard;
+use crate::shard::Shard;
 use crate::suggest::{Bound, Suggestion, graph_text, suggest};
 use crate::{compare::text::figure, usage_problem};
 use shadowgraph_charts::metric::{METRICS, Metric};
@@ -76,7 +76,7 @@ fn measured(catalogue: &Catalogue, args: &SuggestArgs) -> Result<(Vec<Point>, Op
     let _lock = Lock::take(folder)?;
     let mut store = Store::open(folder)?;
     let bar = Bar::new(args.quiet);
-    let how = How { catalogue, backend: args.backend, shard: Shard { index: 1, count: 1 }, scenes: &[], bar: &bar };
+    let how = How { catalogue, backend: args.backend, shard: Shard::WHOLE, scenes: &[], bar: &bar };
     let ids = run(&suite, &mut store, &how)?;
     // The folder may hold other suites' figures.
     let points = points(&store)?.into_iter().filter(|point| ids.contains(&point.id)).collect();

@@ -1,7 +1,7 @@
 //! Records in a folder: one file a run, or a shard, that is only appended to. A run that was killed goes on where it was.
 
-use crate::chart::suite::shard;
 use crate::file_problem;
+use crate::shard::Shard;
 use shadowgraph_charts::lines;
 use shadowgraph_charts::model::Stability;
 use shadowgraph_core::problem::{Problem, Problems};
@@ -9,34 +9,11 @@ use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Which part of the cases a run does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    /// From 0.
-    pub index: usize,
-    /// Parts in all.
-    pub count: usize,
-}
-
-impl Shard {
-    /// `I/N`.
-    ///
-    /// # Errors
-    /// Anything else.
-    pub fn read(text: &str) -> Result<Self, Problem> {
-        shard(text).map(|[index, count]| Self { index, count })
-    }
-
-    /// Whether it does the case of that position.
-    pub fn takes(self, position: usize) -> bool {
-        position % self.count == self.index
-    }
-
-    fn file(self) -> String {
-        match self.count {
-            1 => "records.jsonl".into(),
-            count => format!("records.{}of{count}.jsonl", self.index + 1),
-        }
+/// The file that a shard writes.
+fn file_of(shard: Shard) -> String {
+    match shard.count {
+        1 => "records.jsonl".into(),
+        count => format!("records.{}of{count}.jsonl", shard.index),
     }
 }
 
@@ -57,7 +34,7 @@ impl Records {
     /// The folder or a file in it cannot be made or read; lines that are no records.
     pub fn open(folder: &Path, shard: Shard) -> Result<Self, Problems> {
         std::fs::create_dir_all(folder.join(PICTURES)).map_err(|error| file_problem(folder, &error))?;
-        let own = folder.join(shard.file());
+        let own = folder.join(file_of(shard));
         let mut files = vec![own.clone()];
         for entry in std::fs::read_dir(folder).map_err(|error| file_problem(folder, &error))?.flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();
@@ -114,18 +91,5 @@ fn replace(all: &mut Vec<Stability>, record: Stability) {
     match all.iter_mut().find(|earlier| earlier.id == record.id) {
         Some(earlier) => *earlier = record,
         None => all.push(record),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shards_are_parts_that_make_a_whole() {
-        let shards: Vec<Shard> = ["1/3", "2/3", "3/3"].iter().map(|text| Shard::read(text).unwrap()).collect();
-        for position in 0..10 {
-            assert_eq!(shards.iter().filter(|shard| shard.takes(position)).count(), 1, "{position}");
-        }
     }
 }

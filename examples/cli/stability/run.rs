@@ -2,7 +2,7 @@
 
 use super::frame::{Bench, Frame};
 use super::judge::{Motion, decide, judge};
-use super::records::{PICTURES, Records, Shard};
+use super::records::{PICTURES, Records};
 use super::suite::{Method, SceneEntry, SequenceEntry, Suite};
 use super::{place, suite};
 use crate::answers::{Answers, Truth};
@@ -11,6 +11,7 @@ use crate::engine::Machine;
 use crate::graph_choice;
 use crate::outcome::Outcome;
 use crate::record::WGPU_VERSION;
+use crate::shard::Shard;
 use shadowgraph_charts::model::{Expected, Provenance, Stability, StabilityFrame, Temporal, Verdict, Worst};
 use shadowgraph_core::pass::Catalogue;
 use shadowgraph_core::plan::{Plan, Producer};
