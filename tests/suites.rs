@@ -1,11 +1,12 @@
 //! Suite files: every mistake at once with its place and remedy, variants told apart, and each variant also a graph file.
 
-use crate::bench::job;
+use crate::bench::{chart_args, job};
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::GraphChoice;
-use shadowgraph::chart::suite::{Suite, shard};
+use shadowgraph::chart::suite::Suite;
 use shadowgraph::chart::variant::Variant;
 use shadowgraph::graph_choice;
+use shadowgraph::stability::records::Shard;
 use shadowgraph::suggest::graph_text;
 use shadowgraph_core::plan::Backend;
 use shadowgraph_graph::{Keep, Source, plan_id};
@@ -200,11 +201,11 @@ fn graph_files() -> Result<(), Failed> {
 }
 
 fn shards() -> Result<(), Failed> {
-    assert_eq!(shard("2/4").map_err(|problem| problem.to_string())?, [1, 4]);
-    for wrong in ["0/4", "5/4", "1", "a/b", "1/2/3", "1/0", ""] {
-        let problem = shard(wrong).err().map(|problem| problem.to_string()).unwrap_or_default();
-        let says = "command line: --shard is no part of a whole; expected I/N, with I from 1 to N";
-        assert!(problem.starts_with(says), "{wrong}: {problem}");
+    let of = |part: &str| chart_args(&["chart_small", "--out", "x", "--shard", part]).shard;
+    assert_eq!(of("2/4"), Shard { index: 2, count: 4 });
+    for wrong in ["0/4", "5/4", "1", "a/b", "1/2/3", "1/0", "", "1/x/2", "a/1/2", "1/2/"] {
+        let problem = wrong.parse::<Shard>().err().unwrap_or_default();
+        assert!(problem.starts_with("expected I/N with I in 1..=N"), "{wrong}: {problem}");
     }
     Ok(())
 }
