@@ -1,6 +1,6 @@
 //! What a suite measures: ids that change with it, errors that are true, failures that are listed and stop nothing.
 
-use crate::bench::compare_args;
+use crate::bench::{compare_args, merge_args};
 use crate::chart_place::{COLUMNS, Place, TINY, VARIANTS, sorted, suite_of};
 use crate::program::{program_path, stderr};
 use libtest_mimic::{Failed, Trial};
@@ -14,6 +14,8 @@ pub fn trials() -> Vec<Trial> {
         Trial::test("chart_points/ids_are_those_of_another_process_and_change_with_what_is_measured", ids),
         Trial::test("chart_points/what_cannot_run_is_listed_and_stops_nothing", failures),
         Trial::test("chart_points/a_scene_that_comes_later_takes_the_place_of_its_failure", later),
+        Trial::test("chart_points/a_failure_to_measure_is_tried_again", tried_again),
+        Trial::test("chart_points/figures_that_no_chart_takes_stop_nothing", out_of_range),
         Trial::test("chart_points/a_wrong_pass_shows_its_error", wrong_pass),
         Trial::test("chart_points/errors_are_those_of_compare", like_compare),
         Trial::test("chart_points/a_reference_in_sets_agrees_with_one_of_a_single_set", reference),
@@ -50,6 +52,8 @@ fn ids() -> Result<(), Failed> {
         5,
         "a view"
     );
+    let shape = ["\"builtin:columns\", options: [", "\"builtin:columns\", options: [\"--light-shape\", \"disc\", "];
+    assert_eq!(changed(shape[0], shape[1])?, 5, "a light's shape, which one light sample does not show");
     assert_eq!(changed("size: \"24x24\"", "size: \"24x25\"")?, VARIANTS, "the size");
     assert_eq!(changed("reference: 16", "reference: 17")?, VARIANTS, "the truth");
     assert_eq!(changed("(graph: \"hard\")", "(graph: \"hard\", set: [\"visibility=exact\"])")?, 2, "a pass");
@@ -106,11 +110,72 @@ fn later() -> Result<(), Failed> {
     place.write("file.glb", &export("builtin:one-triangle")?)?;
     let second = run()?;
     assert!(second.len() == 2 && second.iter().all(|point| first.iter().all(|known| known.id != point.id)));
-    // Undone: judged again, and its rounds still count.
+    // Undone: nothing is measured again, and answers and rounds still count.
+    let records = || Ok::<_, Failed>([place.read("out/answers.jsonl")?, place.read("out/rounds.jsonl")?]);
+    let before = records()?;
     place.write("file.glb", &export("builtin:columns")?)?;
-    let rounds = place.read("out/rounds.jsonl")?;
     assert_eq!(sorted(&run()?), sorted(&first));
-    assert!(place.read("out/rounds.jsonl")? == rounds, "timed again");
+    assert!(records()? == before, "measured again");
+    // Gone: what was measured is shown beside what says so. There again: as it was.
+    std::fs::remove_file(place.path("file.glb")).map_err(|error| error.to_string())?;
+    let gone = run()?;
+    assert!(gone.len() == 4 && first.iter().all(|point| gone.contains(point)), "{gone:?}");
+    place.write("file.glb", &export("builtin:columns")?)?;
+    assert_eq!(run()?, first);
+    assert!(place.read("out/rounds.jsonl")? == before[1], "timed again");
+    let measured = place.ids_in("out/answers.jsonl")?;
+    assert!(first.iter().all(|point| measured[&point.id] == 1), "judged again: {measured:?}");
+    Ok(())
+}
+
+/// Memory or a disk that failed once may do the next time.
+fn tried_again() -> Result<(), Failed> {
+    let place = Place::new(&suite_of(COLUMNS, "(graph: \"hard\"), (graph: \"rays\")"))?;
+    let first = place.points("out", &[])?;
+    let lost = Point { failure: Some("the device is lost".into()), errors: Errors::default(), ..first[0].clone() };
+    let line = shadowgraph_charts::lines::to_line(&lost).map_err(|problem| problem.to_string())?;
+    let text = place.read("out/answers.jsonl")? + &line;
+    place.write("out/answers.jsonl", text.as_bytes())?;
+    assert!(place.points("out", &["--page-only"])?.iter().any(|point| point.failure.is_some()));
+    // What was measured elsewhere takes its place, whichever folder comes first.
+    std::fs::create_dir(place.path("good")).map_err(|error| error.to_string())?;
+    for name in ["answers.jsonl", "rounds.jsonl"] {
+        let text = place.read(&format!("out/{name}"))?;
+        let own = text.lines().filter(|line| !line.contains("is lost")).map(|line| format!("{line}\n"));
+        place.write(&format!("good/{name}"), own.collect::<String>().as_bytes())?;
+    }
+    let copied =
+        std::process::Command::new("cp").args(["-r", &place.path("out/pictures"), &place.path("good")]).status();
+    assert!(copied.is_ok_and(|status| status.success()));
+    for order in [["out", "good"], ["good", "out"]] {
+        let [one, two, whole] =
+            [order[0].into(), order[1].into(), format!("{}_first", order[0])].map(|name: String| place.path(&name));
+        commands::chart::merge_text(&merge_args(&[&one, &two, "--out", &whole])).map_err(|p| p.to_string())?;
+        let points = place.points(&format!("{}_first", order[0]), &["--page-only"])?;
+        assert!(points.len() == 2 && points.iter().all(|point| point.failure.is_none()), "{points:?}");
+    }
+    let again = place.points("out", &[])?;
+    let errors =
+        |points: &[Point]| points.iter().map(|point| (point.failure.clone(), point.errors.clone())).collect::<Vec<_>>();
+    assert_eq!(errors(&again), errors(&first));
+    Ok(())
+}
+
+/// A pass that lets twice the light through: its own failure, now and when the run goes on.
+fn out_of_range() -> Result<(), Failed> {
+    let methods = r#"(graph: "soft_shafts", light_samples: 16, axes: {"combine": [twice_lit, popcount]})"#;
+    let place = Place::new(&suite_of(COLUMNS, methods))?;
+    for _ in 0..2 {
+        let points = place.points("out", &[])?;
+        let failures = points.iter().filter_map(|point| point.failure.as_ref());
+        let failures: Vec<&String> = failures.collect();
+        assert!(points.len() == 2 && failures.len() == 1, "{points:?}");
+        assert!(
+            failures[0].contains("a record that cannot be charted") && failures[0].contains("errors."),
+            "{failures:?}"
+        );
+    }
+    assert_eq!(place.read("out/answers.jsonl")?.lines().count(), 2, "the failure is written again and again");
     Ok(())
 }
 

@@ -131,6 +131,8 @@ fn parts() -> Result<(), Failed> {
     let one = place.points("one", &["--shard", "1/2"])?;
     let two = place.points("two", &["--shard", "2/2"])?;
     assert_eq!(one.len() + two.len(), whole.len(), "parts overlap or miss something");
+    // Each scene's times are taken together.
+    assert!(one.iter().all(|point| point.scene == "columns") && two.iter().all(|point| point.scene == "one"));
     assert!(!one.is_empty() && !two.is_empty());
     let [from_one, from_two, out] = ["one", "two", "merged"].map(|name| place.path(name));
     let told = commands::chart::merge_text(&merge_args(&[&from_one, &from_two, "--out", &out]))
@@ -151,6 +153,24 @@ fn parts() -> Result<(), Failed> {
             assert!(Path::new(&out).join(picture).exists(), "{picture}");
         }
     }
+    // More parts than scenes share each scene out, and the page says so.
+    let thirds = ["1/3", "2/3", "3/3"].map(|part| place.points(&part.replace('/', "of"), &["--shard", part]));
+    let thirds = thirds.into_iter().collect::<Result<Vec<_>, Failed>>()?;
+    let all: Vec<Point> = thirds.into_iter().flatten().collect();
+    assert_eq!(sorted(&all), sorted(&whole));
+    let names = ["1of3", "2of3", "3of3"].map(|name| place.path(name));
+    // Into the first of them, which is there already and loses nothing.
+    let pictures = |folder: &str| -> Result<u64, Failed> {
+        let entries = std::fs::read_dir(place.path(folder)).map_err(|error| error.to_string())?;
+        Ok(entries.flatten().filter_map(|entry| entry.metadata().ok()).map(|file| file.len()).min().unwrap_or(0))
+    };
+    let told = commands::chart::merge_text(&merge_args(&[&names[0], &names[1], &names[2], "--out", &names[0]]))
+        .map_err(|problems| problems.to_string())?;
+    assert!(told.contains("1of3: 0 answers, 0 timed rounds"), "{told}");
+    assert!(pictures("1of3/pictures")? > 0, "a picture was emptied");
+    assert_eq!(sorted(&place.points("1of3", &["--page-only"])?), sorted(&whole));
+    let says = "Not all times were taken together";
+    assert!(place.read("1of3/chart.html")?.contains(says) && !place.read("merged/chart.html")?.contains(says));
     // Twice is once, and a folder without records is a problem.
     let again = commands::chart::merge_text(&merge_args(&[&from_one, "--out", &out])).map_err(|p| p.to_string())?;
     assert!(again.contains("one: 0 answers, 0 timed rounds"), "{again}");

@@ -6,13 +6,14 @@ use shadowgraph_core::pass::{Catalogue, Contract, Pass};
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::shared::KEPT;
 use shadowgraph_passes::caster_fill::direct;
+use shadowgraph_passes::combine::popcount;
 use shadowgraph_passes::visibility::{planes, shafts};
 use std::time::Instant;
 
 /// All passes, and those with faults.
 pub fn catalogue() -> Catalogue {
     let mut catalogue = shadowgraph_passes::catalogue();
-    for pass in [&ONE_WRONG_BIT, &ALL_LIT, &TENTH_SLOWER, &SAME_AGAIN, &ONE_LOST] {
+    for pass in [&ONE_WRONG_BIT, &ALL_LIT, &TENTH_SLOWER, &SAME_AGAIN, &ONE_LOST, &TWICE_LIT] {
         catalogue.register(pass);
     }
     catalogue
@@ -46,6 +47,15 @@ static SAME_AGAIN: Pass = Pass { name: "same_again", doc: "Planes.", cpu: Some(s
 /// `direct` that loses one caster of a table.
 static ONE_LOST: Pass =
     Pass { name: "one_lost", doc: "Direct, and then one entry lost.", cpu: Some(one_lost), gpu: None, ..direct::PASS };
+
+/// `popcount` that answers with more than all of the light.
+static TWICE_LIT: Pass = Pass {
+    name: "twice_lit",
+    doc: "Every view-sample gets twice the light.",
+    cpu: Some(twice_lit),
+    gpu: None,
+    ..popcount::PASS
+};
 
 /// The mask that the CPU function of `pass` makes of the same inputs.
 fn run_true(pass: &'static Pass, cx: &mut CpuCx) -> Result<Array, Problem> {
@@ -103,5 +113,12 @@ fn tenth_slower(cx: &mut CpuCx) -> Result<(), Problem> {
 fn same_again(cx: &mut CpuCx) -> Result<(), Problem> {
     let mask = run_true(&planes::PASS, cx)?;
     cx.put("mask", mask);
+    Ok(())
+}
+
+fn twice_lit(cx: &mut CpuCx) -> Result<(), Problem> {
+    let count = cx.input("sample_state").dim(0);
+    cx.put("visible", Array::f32([count], vec![2.0; count]));
+    cx.put("visible_color", Array::f32([0, 3], Vec::new()));
     Ok(())
 }

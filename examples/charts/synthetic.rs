@@ -172,6 +172,7 @@ fn point(scene: &str, method: &Method, step: usize, value: &str, backend: &str) 
     let picture = |what: &str| (failed.is_none() && backend == "cpu").then(|| format!("{name}.{what}.png"));
     let truth = |what: &str| Some(format!("{:016x}.truth.{what}.png", hash(&["scene", scene])));
     Point {
+        part: String::new(),
         id: name.clone(),
         suite: "synthetic".into(),
         scene: scene.into(),

@@ -124,8 +124,9 @@ fn run_scene(
     let earlier_count = store.show(&cases.iter().map(|case| &case.point).collect::<Vec<_>>())?;
     if earlier_count > 0 {
         let scene = &scene.name;
-        let remark =
-            format!("{earlier_count} variants on {scene} are not what they were in an earlier run: measured anew");
+        let remark = format!(
+            "{earlier_count} variants on {scene} are not what they were in an earlier run: its figures are kept, not shown"
+        );
         store.remarks.push(Problem::new(Kind::BadValue, remark));
     }
     let is_open = |case: &Case| match store.answer(&case.point.id) {
