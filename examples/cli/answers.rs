@@ -94,9 +94,13 @@ impl Answers {
     }
 
     /// Whether the row is judged: it is a view-sample, and faces the light as `truth` says. Those that face away are dark whatever
-    /// casts a shadow; graphs that mark them and graphs that test them like any other are judged on the same rows without them.
+    /// casts a shadow; graphs that mark them and graphs that test them like any other are judged on the same rows without them. Where
+    /// both asked other light samples, those near the terminator may face away for one set and not for the other, which says nothing
+    /// about shadows either: then a row must face the light for both.
     pub fn is_compared(&self, truth: &Self, row: usize) -> bool {
-        self.triangle.as_u32()[row] != NO_TRIANGLE && truth.state.as_u32()[row] != FACING_AWAY
+        let faces = |answers: &Self| answers.state.as_u32()[row] != FACING_AWAY;
+        let is_same_set = self.light_samples == truth.light_samples;
+        self.triangle.as_u32()[row] != NO_TRIANGLE && faces(truth) && (is_same_set || faces(self))
     }
 
     /// Visible fractions as a picture `[H W]`, lit where there is no view-sample.

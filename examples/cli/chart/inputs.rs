@@ -12,6 +12,7 @@ use crate::job::Job;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::plan::{Backend, Plan, Slot};
 use shadowgraph_core::problem::{Problem, Problems};
+use shadowgraph_core::shared::FACING_AWAY;
 use shadowgraph_graph::{Keep, plan_id};
 use std::collections::HashMap;
 
@@ -84,6 +85,30 @@ impl<'a> Jobs<'a> {
     }
 }
 
+/// States of view-samples: facing away where they do so for any of the sets. A mean over sets that disagree is no visible fraction.
+fn faces_all_sets(machine: &Machine, plan: &Plan, job: &Job, sets: usize) -> Result<Array, Problems> {
+    let mut only = plan.clone();
+    only.slots.iter_mut().for_each(|slot| slot.keep = slot.port.quantity == "sample_state");
+    only.outputs.clear();
+    let only = only.given(|_| false);
+    let mut states: Option<Vec<u32>> = None;
+    for job in job.in_sets(sets)? {
+        let outcome = machine.run(&only, &job, 1, &|_, _, _| {})?;
+        let kept = only.slots.iter().position(|slot| slot.keep).and_then(|id| outcome.values.try_get(id));
+        let Some(kept) = kept else { continue };
+        let merged = match states {
+            None => kept.as_u32().to_vec(),
+            Some(earlier) => {
+                let away = |pair: (&u32, &u32)| if *pair.0 == FACING_AWAY { *pair.0 } else { *pair.1 };
+                kept.as_u32().iter().zip(&earlier).map(away).collect()
+            }
+        };
+        states = Some(merged);
+    }
+    let states = states.unwrap_or_default();
+    Ok(Array::u32([states.len()], states))
+}
+
 /// Truths about a scene's view-samples by number of light samples, and the view-samples themselves.
 #[derive(Default)]
 pub struct Truths {
@@ -129,7 +154,7 @@ impl Truths {
         let progress = |node: &str, done, total| how.bar.set(&format!("reference, {node}"), done, total);
         let sets = (light_samples / MOST_OF_SET) as usize;
         let machine = Machine::new(BackendChoice::Cpu)?;
-        // What is not a mean over sets, such as which view-samples face away, is that of one of them.
+        // What is not a mean over sets is that of one of them.
         let mut answers = Answers::of(&plan, &machine.run(&plan, &job, 1, &progress)?, &job)?;
         let means = converged(&machine, &plan, &job, sets, &progress)?;
         let mean = |quantity: &str| {
@@ -138,6 +163,7 @@ impl Truths {
             plan.slot(name).and_then(|id| means.values.try_get(id)).cloned()
         };
         (answers.mask, answers.visible, answers.image) = (None, mean("fraction"), mean("radiance"));
+        answers.state = faces_all_sets(&machine, &plan, &job, sets)?;
         answers.light_samples = light_samples as usize;
         self.answers.insert(light_samples, answers.clone());
         Ok(answers)

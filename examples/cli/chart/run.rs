@@ -303,6 +303,9 @@ fn case<'a>(
         part: if how.shard.count > 1 { format!("{}/{}", how.shard.index, how.shard.count) } else { String::new() },
         ..Point::default()
     };
+    if let Ok(job) = jobs.get(variant.light_samples) {
+        (point.size, point.view) = (job.image, job.camera.name);
+    }
     let planned = jobs.get(variant.light_samples).and_then(|job| {
         // What a light is shows only when it has more than one sample; without extent, they all are one.
         let light = jobs.get(suite.reference.min(MOST_OF_SET))?;
@@ -325,8 +328,6 @@ fn case<'a>(
             let mut graph = Number::default();
             take_plan(&mut graph, &plan);
             judged_by = truth;
-            point.size = job.image;
-            point.view = job.camera.name.clone();
             point.left_out = plan.left_out.clone();
             let device = machine.record();
             point.provenance = Provenance {
