@@ -86,6 +86,7 @@ const SPECS: &[ParamSpec] = &[
     spec("margin", Range::F32 { min: 0.0, max: 1.0, default: 0.25 }),
     spec("bias", Range::Word { words: &["constant", "slope"], default: "constant" }),
     spec("patches", Range::Word { words: &["auto", "always", "off"], default: "auto" }),
+    spec("leaves", Range::Word { words: &["auto", "triangles", "rays"], default: "auto" }),
     spec("taps", Range::U32 { min: 1, max: 15, default: 3 }),
 ];
 
