@@ -369,13 +369,12 @@ fn wrong_flags() -> Result<(), Failed> {
 }
 
 /// A node that takes a tenth longer, in a scene where it takes the most. Pairs cancel what slows the machine as a whole; what slows it
-/// in bursts may leave the matter undecided, and then it is looked at again. On a machine that stays too busy for a verdict the ratio must
-/// be that of a slower node all the same.
+/// in bursts may leave the matter undecided, and then it is looked at again.
 fn slower() -> Result<(), Failed> {
     let words = ["hard", "--swap-a", "visibility=same_again", "--swap", "visibility=tenth_slower", "--no-truth"];
     let scene = ["--scene", "builtin:random-triangles?count=3000", "--size", "96x96", "--backend", "cpu"];
-    let (mut last, mut ratios) = (String::new(), Vec::new());
-    for seed in ["1", "2", "3"] {
+    let mut last = String::new();
+    for seed in ["1", "2", "3", "4"] {
         let (report, _) = json(&[&words[..], &scene, &["--seconds", "20", "--seed", seed]].concat())?;
         let nodes = report["timing"]["nodes"].as_array().ok_or("no nodes")?;
         let node = nodes.iter().find(|node| node["node"] == "visibility").ok_or("no visibility")?;
@@ -388,20 +387,11 @@ fn slower() -> Result<(), Failed> {
                 assert!((1.05..1.2).contains(&ratio), "slower, but by {ratio}");
                 return Ok(());
             }
-            Some("undecided") if summary["equivalent"] == false => {
-                ratios.push(summary["ratio"].as_f64().unwrap_or_default());
-            }
+            Some("undecided") => continue,
             other => return Err(format!("{other:?}: {last}").into()),
         }
     }
-    ratios.sort_by(f64::total_cmp);
-    match ratios[ratios.len() / 2] {
-        ratio if ratio > 1.04 => {
-            println!("undecided on a busy machine, ratio {ratio}");
-            Ok(())
-        }
-        ratio => Err(format!("not called slower, ratio {ratio}: {last}").into()),
-    }
+    Err(format!("not called slower: {last}").into())
 }
 
 fn itself() -> Result<(), Failed> {
