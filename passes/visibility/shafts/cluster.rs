@@ -10,7 +10,7 @@ use super::rays::{Leaves, Seen};
 use super::shaft::{CORNER_ERROR, EDGE_ERROR, PLANE_ERROR, Shaft, TINY, Vector, dot, dot_one, from, load, minus};
 use super::tree::{Casters, Node};
 use super::{LANES, lanes_from};
-use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, u32x16};
+use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, u16x32, u32x16};
 
 /// What a cluster reads.
 #[derive(Clone, Copy)]
@@ -120,8 +120,11 @@ pub struct Worker {
     pub patches: Patches,
     stack: Vec<u32>,
     order: Order,
-    /// A bit a light sample of a block, for each view-sample by place and each block.
+    /// A bit for each of sixteen view-samples, for each block of them and each light sample by place.
     pub masks: Vec<u16>,
+    /// Place of each light sample.
+    places: Vec<u32>,
+    words: Vec<u32>,
     /// What was counted.
     pub counts: Counts,
 }
@@ -279,33 +282,42 @@ impl Worker {
     }
 
     /// Calls `write` with every view-sample that has blocked light samples, and the words of its mask.
-    pub fn write(&self, words: &mut [u32], mut write: impl FnMut(u32, &[u32])) {
-        let blocks = self.lights.root().last;
-        let count = self.lights.count;
-        for (view, masks) in self.masks.chunks_exact(blocks.max(1)).enumerate().take(self.views.count) {
-            if masks.iter().all(|bits| *bits == 0) {
+    #[inline(always)]
+    pub fn write<S: Simd>(&mut self, simd: S, mut write: impl FnMut(u32, &[u32])) {
+        self.places.resize(self.lights.count, 0);
+        for (place, index) in (0u32..).zip(&self.lights.index[..self.lights.count]) {
+            self.places[*index as usize] = place;
+        }
+        let length = self.lights.count.div_ceil(WORD);
+        self.words.resize(LANES * length, 0);
+        for (block, masks) in self.masks.chunks_exact((self.lights.root().last * LANES).max(1)).enumerate() {
+            let mut some = masks.iter().fold(0, |some, bits| some | *bits);
+            if some == 0 {
                 continue;
             }
-            words.fill(0);
-            if masks.iter().all(|bits| *bits == u16::MAX) {
-                words.fill(u32::MAX);
-                if !count.is_multiple_of(32) {
-                    words[count / 32] = (1 << (count % 32)) - 1;
+            for (at, places) in self.places.chunks(WORD).enumerate() {
+                let mut row = [0u16; WORD];
+                for (bits, place) in row.iter_mut().zip(places) {
+                    *bits = masks[*place as usize];
                 }
-            } else {
-                for (bits, order) in masks.iter().zip(self.lights.index.chunks_exact(LANES)) {
-                    let mut bits = *bits;
-                    while bits != 0 {
-                        let index = order[bits.trailing_zeros() as usize];
-                        bits &= bits - 1;
-                        words[index as usize / 32] |= 1 << (index % 32);
-                    }
+                let row = u16x32::from_slice(simd, &row);
+                for lane in 0..LANES {
+                    self.words[lane * length + at] = (row & (1 << lane)).simd_ne(0).to_bitmask() as u32;
                 }
             }
-            write(self.views.index[view], words);
+            let first = block * LANES;
+            some &= lanes_from(self.views.count - first);
+            for (lane, words) in self.words.chunks_exact(length).enumerate() {
+                if some >> lane & 1 == 1 {
+                    write(self.views.index[first + lane], words);
+                }
+            }
         }
     }
 }
+
+/// Light samples of a word of a mask.
+const WORD: usize = u32::BITS as usize;
 
 /// From the scene's axes to a cluster's.
 #[inline(always)]

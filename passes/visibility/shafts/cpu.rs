@@ -11,7 +11,7 @@ use crate::ports;
 use crate::shared::atomic_words::{atomic_zeros, into_words};
 use crate::shared::predicate::Corners;
 use crate::shared::segments::mask_words;
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::cpu::CpuCx;
@@ -86,17 +86,20 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
     let counts = (0..tiles)
         .into_par_iter()
         .map_init(
-            || (Worker::default(), Vec::new(), vec![0u32; words]),
-            |(worker, rows, mask), tile_index| {
+            || (Worker::default(), Vec::new()),
+            |(worker, rows), tile_index| {
                 clusters.rows(tile_index, rows);
                 rows.retain(|&row| keep(&receivers, &masks, words, row as usize));
                 worker.counts = Counts::default();
                 if !rows.is_empty() {
-                    dispatch!(level, simd => worker.cluster(simd, &scene, rows));
-                    worker.write(mask, |row, mask| {
+                    let write = |row: u32, mask: &[u32]| {
                         for (to, from) in masks[row as usize * words..].iter().zip(mask) {
                             to.store(*from, Relaxed);
                         }
+                    };
+                    dispatch!(level, simd => {
+                        worker.cluster(simd, &scene, rows);
+                        simd.vectorize(#[inline(always)] || worker.write(simd, write));
                     });
                 }
                 let done = done.fetch_add(1, Relaxed) + 1;

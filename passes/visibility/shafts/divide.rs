@@ -2,7 +2,7 @@
 
 use super::cluster::{Scene, Worker};
 use super::groups::Range;
-use super::leaf::{Pair, open_lanes, test};
+use super::leaf::{Pair, open_lanes, test, transposed};
 use super::own::Verdict;
 use super::patches::{Choice, EDGES, FROM_ABOVE, FROM_BELOW, MIXED, SIFTED};
 use super::shaft::{Answer, SEGMENT_SHARE, Shaft, TINY};
@@ -30,10 +30,15 @@ impl Worker {
                 self.fill(views, lights);
             }
             Some(_) if self.list.len == end => self.counts.lit += 1,
-            Some(_) if scene.patches != Choice::Off && self.decide_patches(simd, scene, views, lights, end) => {
+            Some(_)
+                if scene.patches != Choice::Off
+                    && simd.vectorize(
+                        #[inline(always)]
+                        || self.decide_patches(simd, scene, views, lights, end),
+                    ) =>
+            {
                 self.fill(views, lights);
             }
-            Some(_) if self.list.len == end => self.counts.lit += 1,
             Some(_)
                 if views.len() == 1
                     && simd.vectorize(
@@ -175,9 +180,9 @@ impl Worker {
     }
 
     fn fill(&mut self, views: Range, lights: Range) {
-        let blocks = self.lights.root().last;
-        for view in views.first * LANES..views.last * LANES {
-            self.masks[view * blocks + lights.first..view * blocks + lights.last].fill(u16::MAX);
+        for view in views.first..views.last {
+            let places = self.mask_at(view, lights.first)..self.mask_at(view, lights.last);
+            self.masks[places].fill(u16::MAX);
         }
     }
 
@@ -189,53 +194,49 @@ impl Worker {
         let view_points = [&x[views..views + LANES], &y[views..views + LANES], &z[views..views + LANES]];
         let [x, y, z] = &self.lights.at;
         let light_points = [&x[lights..lights + LANES], &y[lights..lights + LANES], &z[lights..lights + LANES]];
-        let mut blocked = [0u16; LANES];
+        let mut blocked = u32x16::splat(simd, 0);
         for place in start..self.list.len {
             self.counts.tested += 1;
-            let flags = self.list.flags[place];
             let pair = self.pair(place);
             let mut found = test(simd, view_points, light_points, &pair);
             let slot = self.slots[self.list.slot[place] as usize];
-            if let (Verdict::Mixed(row), true) = (slot.verdict, flags & MIXED != 0) {
-                let allowed = self.own.allowed(&scene.world, row, views, &self.lights.index[lights..lights + LANES]);
-                for (j, allowed) in allowed.iter().enumerate() {
-                    found.sure[j] &= allowed;
-                    found.may[j] &= allowed;
-                }
+            if let (Verdict::Mixed(row), true) = (slot.verdict, self.list.flags[place] & MIXED != 0) {
+                let allowed = self.own.allowed(simd, &scene.world, row, views, &self.lights, light);
+                let allowed = u32x16::from_slice(simd, &allowed);
+                found.sure &= allowed;
+                found.may &= allowed;
             }
-            let (mut full, mut doubt) = (u16::MAX, 0);
-            for (j, blocked) in blocked.iter_mut().enumerate() {
-                *blocked |= found.sure[j];
-                found.may[j] &= !*blocked;
-                full &= *blocked;
-                doubt |= found.may[j];
-            }
-            if full == u16::MAX {
+            blocked |= found.sure;
+            if blocked.simd_eq(u32::from(u16::MAX)).all_true() {
                 break;
             }
-            if doubt != 0 {
-                for (j, may) in found.may.iter().enumerate() {
+            found.may &= !blocked;
+            let mut doubt = found.may.simd_ne(0).to_bitmask();
+            while doubt != 0 {
+                let lane = doubt.trailing_zeros() as usize;
+                doubt &= doubt - 1;
+                let row = self.views.index[views + lane] as usize;
+                let own = scene.world.triangles.get(scene.triangle[row] as usize);
+                let caster = &scene.world.triangles[slot.triangle as usize];
+                let is_other = scene.triangle[row] != slot.triangle;
+                let mut may = found.may[lane];
+                while may != 0 {
+                    let j = may.trailing_zeros() as usize;
+                    may &= may - 1;
+                    self.counts.exact += 1;
                     let light = scene.world.lights[self.lights.index[lights + j] as usize];
-                    for lane in (0..LANES).filter(|lane| may >> lane & 1 == 1) {
-                        self.counts.exact += 1;
-                        let row = self.views.index[views + lane] as usize;
-                        let own = scene.world.triangles.get(scene.triangle[row] as usize);
-                        let caster = &scene.world.triangles[slot.triangle as usize];
-                        let is_other = scene.triangle[row] != slot.triangle;
-                        let is_blocked = is_other && blocks(scene.position[row], own, caster, light);
-                        blocked[j] |= u16::from(is_blocked) << lane;
-                    }
+                    let is_blocked = is_other && blocks(scene.position[row], own, caster, light);
+                    blocked[lane] |= u32::from(is_blocked) << j;
                 }
             }
         }
-        let blocks = self.lights.root().last;
-        for lane in 0..LANES {
-            let mut bits = 0;
-            for (j, blocked) in blocked.iter().enumerate() {
-                bits |= (blocked >> lane & 1) << j;
-            }
-            self.masks[(views + lane) * blocks + light] = bits;
-        }
+        let at = self.mask_at(view, light);
+        self.masks[at..at + LANES].copy_from_slice(&transposed(blocked));
+    }
+
+    /// Where the masks of block `view` of view-samples begin for block `light` of light samples.
+    pub fn mask_at(&self, view: usize, light: usize) -> usize {
+        (view * self.lights.root().last + light) * LANES
     }
 }
 

@@ -7,7 +7,7 @@
 use super::LANES;
 use super::groups::LightBox;
 use super::shaft::{Vector, abs, cross, dot, dot_one, from, load};
-use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, u32x16};
 
 /// A caster at a leaf.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,18 +24,18 @@ pub struct Pair {
     pub side: i8,
 }
 
-/// For each light sample, a bit for each view-sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Found {
+/// For each view-sample, a bit for each light sample.
+#[derive(Clone, Copy)]
+pub struct Found<S: Simd> {
     /// Blocked for certain.
-    pub sure: [u16; LANES],
+    pub sure: u32x16<S>,
     /// Blocked for certain, or in doubt.
-    pub may: [u16; LANES],
+    pub may: u32x16<S>,
 }
 
 /// What one caster does. `views` and `lights` are sixteen points each.
 #[inline(always)]
-pub fn test<S: Simd>(simd: S, views: [&[f32]; 3], lights: [&[f32]; 3], pair: &Pair) -> Found {
+pub fn test<S: Simd>(simd: S, views: [&[f32]; 3], lights: [&[f32]; 3], pair: &Pair) -> Found<S> {
     let view = [load(simd, views[0], 0), load(simd, views[1], 0), load(simd, views[2], 0)];
     let [a, g, h] = pair.caster;
     if pair.side != 0 {
@@ -48,27 +48,24 @@ pub fn test<S: Simd>(simd: S, views: [&[f32]; 3], lights: [&[f32]; 3], pair: &Pa
     let views_height = dot_one(normal, from(view, a));
     let lights_height = dot_one(normal, from(light, a));
     let (low, high) = (-pair.plane_error, pair.plane_error);
-    let view_below = views_height.simd_lt(low).to_bitmask() as u16;
-    let view_above = views_height.simd_gt(high).to_bitmask() as u16;
-    let light_below = lights_height.simd_lt(low).to_bitmask() as u16;
-    let light_above = lights_height.simd_gt(high).to_bitmask() as u16;
+    let view_below = views_height.simd_lt(low);
+    let view_above = views_height.simd_gt(high);
+    let light_below = lights_height.simd_lt(low).to_bitmask() as u32;
+    let light_above = lights_height.simd_gt(high).to_bitmask() as u32;
     let zero = f32x16::splat(simd, 0.0);
     let sign = f32x16::splat(simd, 1.0).copysign(zero - views_height);
     let mut found = edges(simd, view, lights, sign, pair);
     let in_plane = !(view_below | view_above);
-    if in_plane != 0 {
+    let (none, all) = (u32x16::splat(simd, 0), u32x16::splat(simd, u32::MAX));
+    if in_plane.any_true() {
         // Either side may be the right one.
         let other = edges(simd, view, lights, zero - sign, pair);
-        for j in 0..LANES {
-            found.may[j] |= other.may[j] & in_plane;
-        }
+        found.may |= in_plane.select(other.may, none);
     }
-    for j in 0..LANES {
-        let is_above = 0u16.wrapping_sub(light_above >> j & 1);
-        let is_below = 0u16.wrapping_sub(light_below >> j & 1);
-        found.sure[j] &= (view_below & is_above) | (view_above & is_below);
-        found.may[j] &= (!view_above & !is_below) | (!view_below & !is_above);
-    }
+    let (not_below, not_above) = (u32x16::splat(simd, !light_below), u32x16::splat(simd, !light_above));
+    let from_below = view_below.select(u32x16::splat(simd, light_above), none);
+    found.sure &= from_below | view_above.select(u32x16::splat(simd, light_below), none);
+    found.may &= (view_above.select(none, all) & not_below) | (view_below.select(none, all) & not_above);
     found
 }
 
@@ -114,7 +111,7 @@ pub fn open_lanes<S: Simd>(simd: S, views: [&[f32]; 3], light: &LightBox, pair: 
 
 /// The edges alone; `sign` turns those of each view-sample.
 #[inline(always)]
-fn edges<S: Simd>(simd: S, view: Vector<S>, lights: [&[f32]; 3], sign: f32x16<S>, pair: &Pair) -> Found {
+fn edges<S: Simd>(simd: S, view: Vector<S>, lights: [&[f32]; 3], sign: f32x16<S>, pair: &Pair) -> Found<S> {
     let [a, g, h] = pair.caster;
     let b = [a[0] + g[0], a[1] + g[1], a[2] + g[2]];
     let between = [h[0] - g[0], h[1] - g[1], h[2] - g[2]];
@@ -146,8 +143,8 @@ fn plane<S: Simd>(view: Vector<S>, base: [f32; 3], edge: [f32; 3], sign: f32x16<
 
 /// On the inner side of all planes.
 #[inline(always)]
-fn sides<S: Simd, const N: usize>(simd: S, planes: [[f32x16<S>; 4]; N], lights: [&[f32]; 3], error: f32) -> Found {
-    let mut found = Found::default();
+fn sides<S: Simd, const N: usize>(simd: S, planes: [[f32x16<S>; 4]; N], lights: [&[f32]; 3], error: f32) -> Found<S> {
+    let mut found = Found { sure: u32x16::splat(simd, 0), may: u32x16::splat(simd, 0) };
     let (inside, outside) = (f32x16::splat(simd, error), f32x16::splat(simd, -error));
     let (x, y, z) = (&lights[0][..LANES], &lights[1][..LANES], &lights[2][..LANES]);
     for j in 0..LANES {
@@ -155,10 +152,21 @@ fn sides<S: Simd, const N: usize>(simd: S, planes: [[f32x16<S>; 4]; N], lights: 
         for plane in &planes[1..] {
             lowest = lowest.min(height(plane, x[j], y[j], z[j]));
         }
-        found.sure[j] = lowest.simd_gt(inside).to_bitmask() as u16;
-        found.may[j] = lowest.simd_ge(outside).to_bitmask() as u16;
+        let bit = 1 << j;
+        found.sure = lowest.simd_gt(inside).select(found.sure | bit, found.sure);
+        found.may = lowest.simd_ge(outside).select(found.may | bit, found.may);
     }
     found
+}
+
+/// Sixteen masks of a bit for each of sixteen, the other way about.
+#[inline(always)]
+pub fn transposed<S: Simd>(masks: u32x16<S>) -> [u16; LANES] {
+    let mut turned = [0; LANES];
+    for (j, turned) in turned.iter_mut().enumerate() {
+        *turned = (masks & (1 << j)).simd_ne(0).to_bitmask() as u16;
+    }
+    turned
 }
 
 /// Of one light sample above a plane of each view-sample.

@@ -5,7 +5,7 @@
 //! settle most casters at once; what is left is looked at plane by plane, in doubt exactly, once for the cluster.
 
 use super::candidates::Candidates;
-use super::groups::{Frame, dot, size};
+use super::groups::{Blocks, Frame, dot, size};
 use super::plane::{ABOVE, BELOW, Plane, Rows};
 use super::{LANES, MOST_VIEWS, lanes_from};
 use crate::shared::predicate::Corners;
@@ -296,51 +296,55 @@ impl OwnPlanes {
         }
     }
 
-    /// Those of sixteen light samples for which view-sample `view`, which admits some, lets the caster of `row` through.
-    /// `order`: light samples by place.
-    pub fn allowed_lights(&mut self, world: &World, row: u32, view: usize, order: &[u32]) -> u16 {
+    /// Those of the light samples of block `light` for which view-sample `view`, which admits some, lets the caster of `row` through.
+    #[inline(always)]
+    pub fn allowed_lights<S: Simd>(
+        &mut self,
+        simd: S,
+        world: &World,
+        row: u32,
+        view: usize,
+        lights: &Blocks,
+        light: usize,
+    ) -> u16 {
         let (at, row) = (self.of_view[view], &self.rows[row as usize]);
-        let (above, below) = (has(&row.above, at), has(&row.below, at));
-        let sides = self.planes[usize::from(at)].sides(world);
-        order.iter().enumerate().fold(0, |allowed, (lane, light)| {
-            let admits = match sides[*light as usize] {
-                0 => true,
-                1 => above,
-                _ => below,
-            };
-            allowed | u16::from(admits) << lane
-        })
+        let sides = self.planes[usize::from(at)].sides(simd, world, lights)[light];
+        let mut allowed = !(sides.above | sides.below);
+        if has(&row.above, at) {
+            allowed |= sides.above;
+        }
+        if has(&row.below, at) {
+            allowed |= sides.below;
+        }
+        allowed
     }
 
-    /// For each of sixteen light samples, a bit for each of sixteen view-samples that lets the caster of `row` through.
-    /// `views`: first place; `order`: light samples by place.
-    pub fn allowed(&mut self, world: &World, row: u32, views: usize, order: &[u32]) -> [u16; LANES] {
-        let row = &self.rows[row as usize];
-        let (mut always, mut sometimes) = (0u16, 0u16);
-        for lane in 0..LANES {
+    /// For each of sixteen view-samples from place `views` on, a bit for each light sample of block `light` for which it lets the
+    /// caster of `row` through.
+    #[inline(always)]
+    pub fn allowed<S: Simd>(
+        &mut self,
+        simd: S,
+        world: &World,
+        row: u32,
+        views: usize,
+        lights: &Blocks,
+        light: usize,
+    ) -> [u32; LANES] {
+        let mut allowed = [0; LANES];
+        let mut last = (NONE, u32::from(u16::MAX));
+        for (lane, allowed) in allowed.iter_mut().enumerate() {
             // Filling repeats the last view-sample.
             let at = self.of_view[(views + lane).min(self.of_view.len() - 1)];
-            if at == NONE || has(&row.plain, at) {
-                always |= 1 << lane;
-            } else if !has(&row.never, at) {
-                sometimes |= 1 << lane;
-            }
-        }
-        let mut allowed = [always; LANES];
-        while sometimes != 0 {
-            let lane = sometimes.trailing_zeros() as usize;
-            sometimes &= sometimes - 1;
-            let at = self.of_view[(views + lane).min(self.of_view.len() - 1)];
-            let (above, below) = (has(&row.above, at), has(&row.below, at));
-            let sides = self.planes[usize::from(at)].sides(world);
-            for (allowed, light) in allowed.iter_mut().zip(order) {
-                let admits = match sides[*light as usize] {
-                    0 => true,
-                    1 => above,
-                    _ => below,
+            if at != last.0 {
+                let admits = match self.admits(row, (views + lane).min(self.of_view.len() - 1)) {
+                    Admits::All => u16::MAX,
+                    Admits::None => 0,
+                    Admits::Some => self.allowed_lights(simd, world, row, views + lane, lights, light),
                 };
-                *allowed |= u16::from(admits) << lane;
+                last = (at, u32::from(admits));
             }
+            *allowed = last.1;
         }
         allowed
     }

@@ -69,8 +69,12 @@ pub struct Patches {
     round: u32,
     /// Candidates that may still be joined before joining must have paid.
     credit: i64,
-    parent: Vec<u32>,
-    open: Vec<bool>,
+    /// Whether [`Self::seen`] is of the shaft's candidates.
+    is_joined: bool,
+    /// By place in the list: which patch, of those looked at, has reached it.
+    visited: Vec<u32>,
+    looked_at: u32,
+    stack: Vec<u32>,
 }
 
 impl Patches {
@@ -95,20 +99,12 @@ impl Patches {
         self.slot_of[triangle as usize] = slot;
         self.named.push(triangle);
     }
-
-    fn root(&mut self, mut at: u32) -> u32 {
-        while self.parent[at as usize] != at {
-            let up = self.parent[self.parent[at as usize] as usize];
-            self.parent[at as usize] = up;
-            at = up;
-        }
-        at
-    }
 }
 
 impl Worker {
-    /// Decides patches without border among the candidates from `start` on: true when one blocks the whole shaft; else those that
-    /// block nothing have left the list.
+    /// Whether a patch without border among the candidates from `start` on blocks the whole shaft. Only patches that one segment meets
+    /// are looked at: no other could.
+    #[inline(always)]
     pub fn decide_patches<S: Simd>(
         &mut self,
         simd: S,
@@ -117,55 +113,32 @@ impl Worker {
         lights: Range,
         start: usize,
     ) -> bool {
-        let (count, parts) = ((self.list.len - start) as i64, views.len() * lights.len());
-        let gain = GAIN * (1 + i64::from(parts.ilog2()));
         if scene.patches == Choice::Auto && self.patches.credit < 0 {
             return false;
         }
-        self.patches.credit -= count;
-        if !self.join(scene, start) {
-            return false;
-        }
-        // One segment against all of them.
-        let (view, light) = (views.first * LANES, lights.first * LANES);
+        let middle = |range: Range| (range.first + range.last) * LANES / 2;
+        let (view, light) = (middle(views), middle(lights));
         let (from, to) = (self.views.point(view), self.lights.point(light));
-        let views = Slanted { centre: from, low: from, high: from, ..Slanted::default() };
-        let ray = Shaft::new(views, LightBox { low: to, high: to });
+        let views_at = Slanted { centre: from, low: from, high: from, ..Slanted::default() };
+        let segment = Shaft::new(views_at, LightBox { low: to, high: to });
         let end = self.list.len;
+        self.patches.is_joined = false;
         for place in (start..end).step_by(LANES) {
-            let lanes = super::lanes_from(end - place);
-            let answer = simd.vectorize(
-                #[inline(always)]
-                || ray.meet(simd, &self.list, place, lanes),
-            );
+            let answer = segment.meet(simd, &self.list, place, super::lanes_from(end - place));
             let mut left = answer.covers | answer.open;
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let at = place + lane;
-                let root = self.patches.root((at - start) as u32);
-                if self.patches.open[root as usize] {
-                    continue;
-                }
-                if answer.covers >> lane & 1 == 1 || self.is_met(scene, at, view, light) {
+                if self.is_closed(scene, start, place + lane)
+                    && (answer.covers >> lane & 1 == 1 || self.is_met(scene, place + lane, view, light))
+                {
+                    let halvings = 1 + i64::from((views.len() * lights.len()).ilog2());
                     self.counts.by_patch += 1;
-                    self.patches.credit += gain * count;
+                    self.patches.credit += GAIN * halvings * (end - start) as i64;
                     return true;
                 }
             }
         }
-        let mut kept = start;
-        for place in start..end {
-            let root = self.patches.root((place - start) as u32);
-            if self.patches.open[root as usize] {
-                if kept != place {
-                    self.list.copy(place, kept);
-                }
-                kept += 1;
-            }
-        }
-        self.patches.credit += gain * (end - kept) as i64;
-        self.list.len = kept;
         false
     }
 
@@ -178,56 +151,71 @@ impl Worker {
         blocks(scene.position[row], own, &scene.world.triangles[caster as usize], light)
     }
 
-    /// Joins the candidates from `start` on; whether some patch has no border.
-    fn join(&mut self, scene: &Scene, start: usize) -> bool {
-        let count = self.list.len - start;
-        let (slots, flags) = (&self.list.slot[start..start + count], &self.list.flags[start..start + count]);
+    /// Whether the patch of the candidate at `place` has no border.
+    fn is_closed(&mut self, scene: &Scene, start: usize, place: usize) -> bool {
+        let (slots, flags) = (&self.list.slot[start..self.list.len], &self.list.flags[start..self.list.len]);
         let patches = &mut self.patches;
-        patches.round += 1;
-        patches.parent.clear();
-        patches.parent.extend(0..count as u32);
-        patches.open.clear();
-        for (place, (&slot, &flags)) in slots.iter().zip(flags).enumerate() {
-            patches.seen[slot as usize] = [patches.round, place as u32];
-            patches.open.push(flags & FACING == 0 || flags & MIXED != 0);
+        let place = place - start;
+        if flags[place] & FACING == 0 || flags[place] & MIXED != 0 {
+            return false;
         }
-        for place in 0..count {
-            if flags[place] & FACING == 0 || flags[place] & MIXED != 0 {
-                continue;
-            }
-            let slot = slots[place] as usize;
+        if !patches.is_joined {
+            // Most that have a border have it here.
             for edge in 0..3 {
-                if flags[place] >> edge & 1 == 0 {
+                if flags[place] >> edge & 1 == 1
+                    && patches.across_edge(scene, &self.slots, slots[place] as usize, edge) == BORDER
+                {
+                    return false;
+                }
+            }
+            patches.is_joined = true;
+            patches.round += 1;
+            patches.credit -= slots.len() as i64;
+            for (&slot, at) in slots.iter().zip(0..) {
+                patches.seen[slot as usize] = [patches.round, at];
+            }
+            patches.visited.clear();
+            patches.visited.resize(slots.len(), 0);
+            patches.looked_at = 0;
+        }
+        if patches.visited[place] != 0 {
+            // Of a patch that has a border, or that the segment does not meet after all.
+            return false;
+        }
+        patches.looked_at += 1;
+        patches.visited[place] = patches.looked_at;
+        patches.stack.clear();
+        patches.stack.push(place as u32);
+        while let Some(at) = patches.stack.pop() {
+            let at = at as usize;
+            patches.credit -= 1;
+            for edge in 0..3 {
+                if flags[at] >> edge & 1 == 0 {
                     continue;
                 }
-                let across = patches.across_edge(scene, &self.slots, slot, edge);
+                let across = patches.across_edge(scene, &self.slots, slots[at] as usize, edge);
                 if across == BORDER {
-                    patches.open[place] = true;
+                    return false;
                 } else if across != OUT && patches.seen[across as usize][0] == patches.round {
-                    let other = patches.seen[across as usize][1];
-                    if (flags[other as usize] ^ flags[place]) & (FACING | MIXED) == 0 {
-                        let (a, b) = (patches.root(place as u32), patches.root(other));
-                        patches.parent[a.max(b) as usize] = a.min(b);
-                    } else {
-                        patches.open[place] = true;
+                    let other = patches.seen[across as usize][1] as usize;
+                    if (flags[other] ^ flags[at]) & (FACING | MIXED) != 0 {
+                        return false;
+                    }
+                    if patches.visited[other] == 0 {
+                        patches.visited[other] = patches.looked_at;
+                        patches.stack.push(other as u32);
+                    } else if patches.visited[other] != patches.looked_at {
+                        // What lies beyond was not looked at to its end.
+                        return false;
                     }
                 } else if across != OUT && !self.slots[across as usize].is_plain() {
                     // It may have left because of own triangles, or because the view-samples' own cones miss it: the way from one
                     // segment of the shaft to another may meet it all the same.
-                    patches.open[place] = true;
+                    return false;
                 }
             }
         }
-        let mut closed = false;
-        for place in 0..count {
-            let root = patches.root(place as u32) as usize;
-            let open = patches.open[place];
-            patches.open[root] |= open;
-        }
-        for place in 0..count {
-            closed |= !patches.open[place] && patches.parent[place] == place as u32;
-        }
-        closed
+        true
     }
 }
 

@@ -1,7 +1,7 @@
 //! The plane of an own triangle: heights of corners in the cluster's space with bounds on rounding, sixteen planes at once; and exact sides.
 
 use super::LANES;
-use super::groups::{Frame, cross, dot, size};
+use super::groups::{Blocks, Frame, cross, dot, size};
 use super::own::World;
 use super::shaft::{PLANE_ERROR, dot_one, load};
 use crate::shared::predicate::{Corners, side};
@@ -29,8 +29,17 @@ pub struct Plane {
     pub lit: bool,
     /// Where the world's plane is one of equal x, y or z.
     level: Option<Level>,
-    /// Sides of all light samples, exactly; made when first asked for.
-    sides: Vec<i8>,
+    /// Sides of all light samples, block by block; made when first asked for.
+    sides: Vec<Sides>,
+}
+
+/// Light samples of a block strictly above a plane, and strictly below, a bit each.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sides {
+    /// Above.
+    pub above: u16,
+    /// Below.
+    pub below: u16,
 }
 
 /// A plane `p[axis] = at`: on which side a point is needs a comparison. Floors and walls often are such, and others level with them.
@@ -201,13 +210,32 @@ impl Plane {
         if self.up > 0 { up | down } else { (up << 1) | (down >> 1) }
     }
 
-    /// 1 above, -1 below, 0 in the plane, for every light sample.
-    pub fn sides(&mut self, world: &World) -> &[i8] {
+    /// On which side each block of light samples is, exactly.
+    #[inline(always)]
+    pub fn sides<S: Simd>(&mut self, simd: S, world: &World, lights: &Blocks) -> &[Sides] {
         if self.sides.is_empty() {
             let own = &world.triangles[self.triangle as usize];
-            let (level, up) = (self.level, self.up);
-            let side_of = |light: [f32; 3]| level.map_or_else(|| side(own, light), |level| level.side(light));
-            self.sides.extend(world.lights.iter().map(|light| (side_of(*light) * up) as i8));
+            for (block, order) in lights.index.chunks_exact(LANES).enumerate() {
+                let [x, y, z] = &lights.at;
+                let first = block * LANES;
+                let at = [load(simd, x, first), load(simd, y, first), load(simd, z, first)];
+                let room = (at[0].abs() + at[1].abs() + at[2].abs() + self.size) * self.error;
+                let height = dot_one(self.normal, at) + self.constant;
+                let mut sides = Sides {
+                    above: height.simd_gt(room).to_bitmask() as u16,
+                    below: (height + room).simd_lt(0.0).to_bitmask() as u16,
+                };
+                let mut doubt = !(sides.above | sides.below);
+                while doubt != 0 {
+                    let lane = doubt.trailing_zeros() as usize;
+                    doubt &= doubt - 1;
+                    let light = world.lights[order[lane] as usize];
+                    let side = self.up * self.level.map_or_else(|| side(own, light), |level| level.side(light));
+                    sides.above |= u16::from(side > 0) << lane;
+                    sides.below |= u16::from(side < 0) << lane;
+                }
+                self.sides.push(sides);
+            }
         }
         &self.sides
     }

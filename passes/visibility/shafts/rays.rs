@@ -11,6 +11,7 @@
 
 use super::cluster::{Scene, Worker};
 use super::groups::{LightBox, Range};
+use super::leaf::transposed;
 use super::own::{Admits, Verdict};
 use super::patches::MIXED;
 use super::shaft::{SEGMENT_SHARE, TINY, Vector, abs, cross, dot, dot_one, from, load, minus, plus};
@@ -33,6 +34,8 @@ pub struct Seen {
     cost: u64,
     /// Blocks of light samples not wholly blocked, and what is blocked of each.
     open: Vec<(usize, u16)>,
+    /// For each block of light samples what is blocked of it for sixteen view-samples.
+    found: Vec<u32>,
 }
 
 impl Default for Seen {
@@ -44,6 +47,7 @@ impl Default for Seen {
             len: 0,
             cost: 0,
             open: Vec::new(),
+            found: Vec::new(),
         }
     }
 }
@@ -120,19 +124,27 @@ impl Worker {
         if (views.len() * (self.list.len - start).div_ceil(LANES)) as u64 * LOOK_COST >= most {
             return false;
         }
-        let blocks = self.lights.root().last;
         self.seen.cost = 0;
+        self.seen.found.clear();
+        self.seen.found.resize(lights.len() * LANES, 0);
         for view in views.clone() {
             let limit = if view == views.start { most / views.len() as u64 } else { u64::MAX };
             if !self.look(simd, scene, view, lights, start, limit) {
                 return false;
             }
             // Those that have left are full.
-            let masks = view * blocks;
-            self.masks[masks + lights.first..masks + lights.last].fill(u16::MAX);
-            for &(light, blocked) in &self.seen.open {
-                self.masks[masks + light] = blocked;
+            let seen = &mut self.seen;
+            let lane = view - views.start;
+            for masks in seen.found.chunks_exact_mut(LANES) {
+                masks[lane] = u32::from(u16::MAX);
             }
+            for &(light, blocked) in &seen.open {
+                seen.found[(light - lights.first) * LANES + lane] = u32::from(blocked);
+            }
+        }
+        let at = self.mask_at(block, lights.first);
+        for (masks, found) in self.masks[at..].chunks_exact_mut(LANES).zip(self.seen.found.chunks_exact(LANES)) {
+            masks.copy_from_slice(&transposed(u32x16::from_slice(simd, found)));
         }
         true
     }
@@ -359,8 +371,7 @@ impl Worker {
             let mut sure = bits(lowest.simd_gt(edge) & height.simd_gt(plane));
             let slot = self.slots[self.seen.slot[entry] as usize];
             if let (Verdict::Mixed(row), 1) = (slot.verdict, self.seen.is_mixed[entry]) {
-                let order = &self.lights.index[first..first + LANES];
-                let allowed = self.own.allowed_lights(&scene.world, row, view, order);
+                let allowed = self.own.allowed_lights(simd, &scene.world, row, view, &self.lights, light);
                 (sure, may) = (sure & allowed, may & allowed);
             }
             blocked |= sure;
