@@ -1,13 +1,15 @@
 //! One cluster: gathers casters, divides its shaft until every part is decided.
 
 use super::candidates::Candidates;
-use super::groups::{Blocks, Frame, LightBox, Slanted, every, size, tree_len};
+use super::groups::{Blocks, Frame, LightBox, Points, Slanted, every, join_boxes, size, tree_len};
 use super::neighbours::Neighbours;
 use super::order::Order;
 use super::own::{OwnPlanes, Owners, Verdict, World};
 use super::patches::{Choice, HELD_BACK, MIXED, Patches, UNKNOWN};
 use super::rays::{Leaves, Seen};
-use super::shaft::{CORNER_ERROR, EDGE_ERROR, PLANE_ERROR, Shaft, TINY, Vector, dot, dot_one, from, load, minus};
+use super::shaft::{
+    CORNER_ERROR, EDGE_ERROR, PLANE_ERROR, SEGMENT_SHARE, Shaft, TINY, Vector, dot, dot_one, from, load, minus,
+};
 use super::tree::{Casters, Node};
 use super::{LANES, lanes_from};
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, u16x32, u32x16};
@@ -30,7 +32,9 @@ pub struct Scene<'a> {
     /// Triangle of each.
     pub triangle: &'a [u32],
     /// Light samples, scaled.
-    pub lights: &'a [[f32; 3]],
+    pub lights: &'a Points,
+    /// 0, 1, 2 ..
+    pub light_index: &'a [u32],
     /// Their middle.
     pub light: [f32; 3],
 }
@@ -91,10 +95,23 @@ impl Slot {
     }
 }
 
+/// A caster, all that a leaf reads of it in one place.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub struct Shape {
+    /// First corner and edges.
+    pub caster: [[f32; 3]; 3],
+    /// Bound on the error of an edge's function for one segment.
+    pub edge_error: f32,
+    /// Bound on the error of the plane's.
+    pub plane_error: f32,
+}
+
 /// What a thread keeps from cluster to cluster.
 #[derive(Default)]
 pub struct Worker {
     points: Vec<[f32; 3]>,
+    view_points: Points,
     frame: Frame,
     /// View-samples of the cluster.
     pub views: Blocks,
@@ -110,6 +127,8 @@ pub struct Worker {
     pub list: Candidates,
     /// All casters of the cluster.
     pub slots: Vec<Slot>,
+    /// What the leaves read of each.
+    pub shapes: Vec<Shape>,
     /// Own triangles.
     pub own: OwnPlanes,
     /// Those of groups of view-samples, by node.
@@ -136,19 +155,24 @@ impl Worker {
         self.points.extend(rows.iter().map(|&row| scene.world.unit(scene.position[row as usize])));
         self.frame = Frame::new(&self.points, scene.light);
         let frame = self.frame;
-        self.views.fill(self.points.iter().zip(rows).map(|(point, row)| (frame.point(*point), *row)));
-        self.lights.fill(scene.lights.iter().zip(0..).map(|(point, index)| (frame.point(*point), index)));
+        self.view_points.fill(self.points.iter().copied());
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                self.views.fill(simd, &frame, &self.view_points, rows);
+                self.lights.fill(simd, &frame, scene.lights, scene.light_index);
+            },
+        );
         let (views, lights) = (self.views.root(), self.lights.root());
         self.slanted.resize(tree_len(views.last), Slanted::default());
         every(views, &mut |range| self.slanted[range.node] = self.views.slanted(range));
         self.boxes.resize(tree_len(lights.last), LightBox::default());
         self.light_boxes.resize(lights.last, LightBox::default());
-        every(lights, &mut |range| {
-            self.boxes[range.node] = self.lights.light_box(range);
-            if range.len() == 1 {
-                self.light_boxes[range.first] = self.boxes[range.node];
-            }
-        });
+        simd.vectorize(
+            #[inline(always)]
+            || self.lights.light_boxes(simd, &mut self.light_boxes),
+        );
+        join_boxes(lights, &self.light_boxes, &mut self.boxes);
         self.masks.clear();
         self.masks.resize(views.last * LANES * lights.last, 0);
         let owns = self.views.index[..self.views.count].iter().map(|&row| scene.triangle[row as usize]);
@@ -176,6 +200,7 @@ impl Worker {
         let shaft = Shaft::new(self.slanted[0], self.boxes[0]);
         let walls = self.walls(&shaft);
         self.slots.clear();
+        self.shapes.clear();
         self.stack.clear();
         self.stack.extend((!scene.casters.nodes.is_empty()).then_some(0));
         while let Some(index) = self.stack.pop() {
@@ -222,6 +247,11 @@ impl Worker {
                 self.list.slot[kept] = self.slots.len() as u32;
                 self.list.flags[kept] = if verdict == Verdict::Plain { 0 } else { MIXED };
                 self.slots.push(Slot { triangle, verdict, is_sifted: false });
+                self.shapes.push(Shape {
+                    caster: self.list.caster(place),
+                    edge_error: SEGMENT_SHARE * self.list.rows[9][place] + TINY,
+                    plane_error: self.list.rows[10][place],
+                });
                 kept += 1;
             }
         }

@@ -2,6 +2,7 @@
 
 use super::MOST_VIEWS;
 use super::cluster::{Counts, Scene, Worker};
+use super::groups::Points;
 use super::neighbours::Neighbours;
 use super::own::World;
 use super::patches::Choice;
@@ -68,6 +69,9 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
     let lights: Vec<[f32; 3]> = light_samples.iter().map(|light| world.unit(*light)).collect();
     let share = 1.0 / lights.len() as f32;
     let light = lights.iter().fold([0.0; 3], |sum: [f32; 3], p| [0, 1, 2].map(|k| sum[k] + share * p[k]));
+    let mut light_points = Points::default();
+    light_points.fill(lights.iter().copied());
+    let light_index: Vec<u32> = (0..lights.len() as u32).collect();
     let scene = Scene {
         world,
         casters: &casters,
@@ -76,7 +80,8 @@ pub fn answer(receivers: Receivers, level: Level, progress: &(dyn Fn(u64, u64) +
         leaves: receivers.leaves,
         position,
         triangle: receivers.triangle,
-        lights: &lights,
+        lights: &light_points,
+        light_index: &light_index,
         light,
     };
     let clusters = Clusters::new(&receivers, &world);

@@ -5,13 +5,15 @@ use super::groups::Range;
 use super::leaf::{Pair, open_lanes, test, transposed};
 use super::own::Verdict;
 use super::patches::{Choice, EDGES, FROM_ABOVE, FROM_BELOW, MIXED, SIFTED};
-use super::shaft::{Answer, SEGMENT_SHARE, Shaft, TINY};
+use super::shaft::{Answer, Shaft};
 use super::{LANES, lanes_from};
 use crate::shared::predicate::blocks;
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, mask32x16, u32x16};
 
 /// Blocks of view-samples below which own triangles are asked about every candidate: patches need to know.
 const FEW: usize = 4;
+/// Tests of a caster against sixteen view-samples and sixteen light samples that are made rather than the light divided once more.
+const DIRECT: usize = 12;
 
 impl Worker {
     /// Decides the shaft from `views` to `lights`, whose candidates are those from `start` on; they are still there afterwards.
@@ -57,11 +59,13 @@ impl Worker {
             {
                 self.counts.lit += 1;
             }
-            Some(_) if views.len() == 1 && lights.len() == 1 => {
-                simd.vectorize(
-                    #[inline(always)]
-                    || self.leaf(simd, scene, views.first, lights.first, end),
-                );
+            Some(_) if views.len() == 1 && (lights.len() == 1 || lights.len() * (self.list.len - end) <= DIRECT) => {
+                for light in lights.first..lights.last {
+                    simd.vectorize(
+                        #[inline(always)]
+                        || self.leaf(simd, scene, views.first, light, end),
+                    );
+                }
             }
             Some(views_wider) => {
                 let left = self.list.len - end;
@@ -135,11 +139,12 @@ impl Worker {
 
     fn pair(&self, place: usize) -> Pair {
         let flags = self.list.flags[place];
+        let shape = &self.shapes[self.list.slot[place] as usize];
         let side = i8::from(flags & FROM_BELOW != 0) - i8::from(flags & FROM_ABOVE != 0);
         Pair {
-            caster: self.list.caster(place),
-            edge_error: SEGMENT_SHARE * self.list.rows[9][place] + TINY,
-            plane_error: self.list.rows[10][place],
+            caster: shape.caster,
+            edge_error: shape.edge_error,
+            plane_error: shape.plane_error,
             // An edge's sign means nothing while that of the plane is open.
             edges: if side == 0 { 0b111 } else { (flags & EDGES) as u8 },
             side,
@@ -215,19 +220,11 @@ impl Worker {
             while doubt != 0 {
                 let lane = doubt.trailing_zeros() as usize;
                 doubt &= doubt - 1;
-                let row = self.views.index[views + lane] as usize;
-                let own = scene.world.triangles.get(scene.triangle[row] as usize);
-                let caster = &scene.world.triangles[slot.triangle as usize];
-                let is_other = scene.triangle[row] != slot.triangle;
-                let mut may = found.may[lane];
-                while may != 0 {
-                    let j = may.trailing_zeros() as usize;
-                    may &= may - 1;
-                    self.counts.exact += 1;
-                    let light = scene.world.lights[self.lights.index[lights + j] as usize];
-                    let is_blocked = is_other && blocks(scene.position[row], own, caster, light);
-                    blocked[lane] |= u32::from(is_blocked) << j;
-                }
+                let may = found.may[lane] as u16;
+                self.counts.exact += u64::from(may.count_ones());
+                let order = &self.lights.index[lights..lights + LANES];
+                let met = met_exactly(scene, slot.triangle, self.views.index[views + lane], order, may);
+                blocked[lane] |= u32::from(met);
             }
         }
         let at = self.mask_at(view, light);
@@ -238,6 +235,21 @@ impl Worker {
     pub fn mask_at(&self, view: usize, light: usize) -> usize {
         (view * self.lights.root().last + light) * LANES
     }
+}
+
+/// Those of the light samples `may` in `order` that triangle `id` blocks for view-sample `row`, whose own triangle lets it through for
+/// them.
+pub fn met_exactly(scene: &Scene, id: u32, row: u32, order: &[u32], mut may: u16) -> u16 {
+    let position = scene.position[row as usize];
+    let caster = &scene.world.triangles[id as usize];
+    let mut met = 0;
+    while may != 0 {
+        let lane = may.trailing_zeros() as usize;
+        may &= may - 1;
+        let light = scene.world.lights[order[lane] as usize];
+        met |= u16::from(blocks(position, None, caster, light)) << lane;
+    }
+    met
 }
 
 /// The flags of sixteen candidates.

@@ -32,10 +32,18 @@
 //!   are asked sixteen at once: a third of the apartment's time, a sixth of Sponza's;
 //! - a tree and neighbours made for this pass, not for rays: 45 ms instead of 210 on the apartment;
 //! - casters sorted by what they hide, once for the cluster: half of the apartment's pairs at the leaves; the wrong order costs ten times as many;
-//! - once all that was done, joining casters into patches cost as much as it saved on all but closed fine meshes (a quarter on the bunny seen
-//!   from near): what a patch saves is counted by halvings of its shaft, not by parts;
+//! - once all that was done, joining all casters of a shaft into patches cost as much as it saved on all but closed fine meshes. Following
+//!   only the patch in the way of one segment costs a quarter of that: a quarter to two fifths off the bunny, the torus knot and Sponza seen from near,
+//!   nothing lost on hair;
 //! - ray packets instead of the leaves' triangles: a quarter off hair and Sponza, a third off the apartment overview. They were expected
-//!   to take half; what is left is the search for the few casters in the way of each view-sample, and on coarse meshes packets lose.
+//!   to take half; what is left is the search for the few casters in the way of each view-sample, and on coarse meshes packets lose;
+//! - at the leaves, a bit for each light sample or'd into the view-samples' lanes instead of masks stored light by light and read
+//!   back: a quarter of the leaves' time, expected nearly half;
+//! - masks kept light by light and turned, thirty-two bits at once, when written, instead of bit by bit: all but 5 of 34 ms of 1024 light samples;
+//! - the lights' order found by halving intervals and compressing registers instead of selecting among points: two thirds of the 40 ms
+//!   that 1024 light samples took, expected nine tenths;
+//! - for 1024 light samples, holding each caster against sixteen boxes of light samples at once instead of sixteen casters against each
+//!   box: expected to halve packets; it lost a seventh on columns, as the tests segment by segment are what costs, and went.
 
 mod candidates;
 mod cluster;

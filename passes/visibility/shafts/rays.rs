@@ -7,16 +7,16 @@
 //! those sixteen, light samples in the lanes. Signs are turned so that what blocks is positive.
 //!
 //! Bounds on errors are those of [`super::shaft`]: m, f and the height have fewer roundings here than there. A caster whose plane v
-//! is in for all that rounding tells has an infinite error there: either side may be the right one, and [`blocks`] decides.
+//! is in for all that rounding tells has an infinite error there: either side may be the right one, and the predicate decides.
 
 use super::cluster::{Scene, Worker};
+use super::divide::met_exactly;
 use super::groups::{LightBox, Range};
 use super::leaf::transposed;
 use super::own::{Admits, Verdict};
 use super::patches::MIXED;
 use super::shaft::{SEGMENT_SHARE, TINY, Vector, abs, cross, dot, dot_one, from, load, minus, plus};
 use super::{LANES, lanes_from};
-use crate::shared::predicate::blocks;
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16, u32x16};
 
 /// Three products, the normal, the view-sample's height, errors of edges and of the plane.
@@ -376,17 +376,10 @@ impl Worker {
             }
             blocked |= sure;
             may &= !blocked;
-            while may != 0 {
-                let lane = may.trailing_zeros() as usize;
-                may &= may - 1;
-                self.counts.exact += 1;
-                let row = self.views.index[view] as usize;
-                let own = scene.world.triangles.get(scene.triangle[row] as usize);
-                let caster = &scene.world.triangles[slot.triangle as usize];
-                let light = scene.world.lights[self.lights.index[first + lane] as usize];
-                let is_other = scene.triangle[row] != slot.triangle;
-                let is_blocked = is_other && blocks(scene.position[row], own, caster, light);
-                blocked |= u16::from(is_blocked) << lane;
+            if may != 0 {
+                self.counts.exact += u64::from(may.count_ones());
+                let order = &self.lights.index[first..first + LANES];
+                blocked |= met_exactly(scene, slot.triangle, self.views.index[view], order, may);
             }
             if blocked == u16::MAX {
                 return blocked;

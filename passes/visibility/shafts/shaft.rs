@@ -151,23 +151,13 @@ impl Shaft {
         let [x, y] = views.half;
         let along_z = views.slope[0].abs() * x + views.slope[1].abs() * y + views.rest;
         let [ux, uy, uz] = light_half;
-        let upper = [0, 1].map(|axis| {
-            side(
-                [views.high[axis], light.high[axis]],
-                [views.low[2], light.low[2]],
-                [views.high[2], light.high[2]],
-                1.0,
-            )
-        });
-        let lower = [0, 1].map(|axis| {
-            side([views.low[axis], light.low[axis]], [views.low[2], light.low[2]], [views.high[2], light.high[2]], -1.0)
-        });
+        let [upper_x, upper_y, lower_x, lower_y] = sides(&views, &light);
         Self {
             along: [0, 1, 2].map(|k| middle[k] - views.centre[k]),
             light_half,
             cross: [along_z * uy + y * uz, along_z * ux + x * uz, x * uy + y * ux],
-            upper,
-            lower,
+            upper: [upper_x, upper_y],
+            lower: [lower_x, lower_y],
             depth: [views.low[2].min(light.low[2]), views.high[2].max(light.high[2])],
             views,
         }
@@ -271,17 +261,26 @@ impl Shaft {
     }
 }
 
-/// The side that both boxes touch; `outward` is 1 for upper sides. `ends`: of the view-samples and of the light along the axis.
-fn side(ends: [f32; 2], low_z: [f32; 2], high_z: [f32; 2], outward: f32) -> Side {
-    let widens = (ends[1] - ends[0]) * outward > 0.0;
-    let z = if widens { low_z } else { high_z };
-    let outer = if widens { ends[1] } else { ends[0] };
-    let rise = z[1] - z[0];
-    if rise <= 1e-6 * (z[0].abs() + z[1].abs()) {
-        return Side { slope: 0.0, limit: outer };
+/// The sides that both boxes touch, x and y, upper and lower; all four at once, without branches.
+#[inline(always)]
+fn sides(views: &Slanted, light: &LightBox) -> [Side; 4] {
+    let near = [views.high[0], views.high[1], views.low[0], views.low[1]];
+    let far = [light.high[0], light.high[1], light.low[0], light.low[1]];
+    let outward = [1.0, 1.0, -1.0, -1.0];
+    let mut sides = [Side { slope: 0.0, limit: 0.0 }; 4];
+    for k in 0..4 {
+        let apart = far[k] - near[k];
+        let widens = apart * outward[k] > 0.0;
+        let z = if widens { [views.low[2], light.low[2]] } else { [views.high[2], light.high[2]] };
+        let outer = if widens { far[k] } else { near[k] };
+        let rise = z[1] - z[0];
+        let size = z[0].abs() + z[1].abs();
+        let slope = apart / rise;
+        // Rounding of the slope and of the products moves the plane by a few steps.
+        let room = 8.0 * f32::EPSILON * (near[k].abs() + far[k].abs() + slope.abs() * size);
+        let tilted = near[k] - slope * z[0] + outward[k] * room;
+        let is_flat = rise <= 1e-6 * size;
+        sides[k] = Side { slope: if is_flat { 0.0 } else { slope }, limit: if is_flat { outer } else { tilted } };
     }
-    let slope = (ends[1] - ends[0]) / rise;
-    // Rounding of the slope and of the products moves the plane by a few steps.
-    let room = 8.0 * f32::EPSILON * (ends[0].abs() + ends[1].abs() + slope.abs() * (z[0].abs() + z[1].abs()));
-    Side { slope, limit: ends[0] - slope * z[0] + outward * room }
+    sides
 }
