@@ -1,7 +1,8 @@
 //! One cluster: gathers casters, divides its shaft until every part is decided.
 
 use super::candidates::Candidates;
-use super::groups::{Blocks, Frame, LightBox, Points, Slanted, every, join_boxes, size, tree_len};
+use super::groups::{Blocks, Frame, LightBox, Slanted, every, join_boxes, size, tree_len};
+use super::halving::Points;
 use super::neighbours::Neighbours;
 use super::order::Order;
 use super::own::{OwnPlanes, Owners, Verdict, World};

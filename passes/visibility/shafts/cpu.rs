@@ -2,7 +2,7 @@
 
 use super::MOST_VIEWS;
 use super::cluster::{Counts, Scene, Worker};
-use super::groups::Points;
+use super::halving::Points;
 use super::neighbours::Neighbours;
 use super::own::World;
 use super::patches::Choice;

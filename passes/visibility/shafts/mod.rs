@@ -50,6 +50,7 @@ mod cluster;
 mod cpu;
 mod divide;
 mod groups;
+mod halving;
 mod leaf;
 mod neighbours;
 mod order;
