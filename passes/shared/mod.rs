@@ -23,6 +23,7 @@ pub mod lu;
 pub mod lu_fill;
 pub mod lu_look_up;
 pub mod lu_record;
+pub mod neighbours;
 pub mod packed;
 pub mod pair_counts;
 pub mod pair_walk;

@@ -2,7 +2,7 @@
 
 use super::candidates::Candidates;
 use super::groups::{Blocks, Frame, LightBox, Slanted, every, size, tree_len};
-use super::neighbours::Neighbours;
+use crate::shared::neighbours::Neighbours;
 use super::order::Order;
 use super::own::{OwnPlanes, Owners, Verdict, World};
 use super::patches::{Choice, HELD_BACK, MIXED, Patches, UNKNOWN};

@@ -2,7 +2,7 @@
 
 use super::MOST_VIEWS;
 use super::cluster::{Counts, Scene, Worker};
-use super::neighbours::Neighbours;
+use crate::shared::neighbours::Neighbours;
 use super::own::World;
 use super::patches::Choice;
 use super::rays::Leaves;

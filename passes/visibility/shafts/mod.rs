@@ -43,7 +43,6 @@ mod cpu;
 mod divide;
 mod groups;
 mod leaf;
-mod neighbours;
 mod order;
 mod own;
 mod patches;
@@ -98,6 +97,7 @@ pub static PASS: Pass = Pass {
         "lu_layout",
         "bvh_nodes",
         "bvh_order",
+        "penumbra_state",
     ],
     params: &[
         ParamSpec {

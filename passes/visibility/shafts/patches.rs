@@ -13,7 +13,7 @@
 use super::LANES;
 use super::cluster::{Scene, Slot, Worker};
 use super::groups::{LightBox, Range, Slanted};
-use super::neighbours::NONE;
+use crate::shared::neighbours::NONE;
 use super::shaft::Shaft;
 use crate::shared::predicate::blocks;
 use fearless_simd::Simd;
