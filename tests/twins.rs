@@ -31,6 +31,7 @@ const GRAPHS: &[(&str, &[&str])] = &[
     ("soft_lu", &[]),
     ("soft_lu_planar", &[]),
     ("soft_certain", &[]),
+    ("soft_penumbra", &[]),
     ("rays", &[]),
     ("pcss", &[]),
     ("multi_shadow_map", &[]),

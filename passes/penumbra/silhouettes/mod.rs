@@ -28,7 +28,7 @@
 //! Departs from the paper: the own triangle; triangles whose planes cut the light; the answer of view-samples, not of cells.
 
 mod cpu;
-
+mod gpu;
 #[cfg(test)]
 mod tests;
 
@@ -66,7 +66,7 @@ pub static PASS: Pass = Pass {
     features: &[Feature::IndirectExecution],
     size,
     cpu: Some(cpu::run),
-    gpu: None,
+    gpu: Some(gpu::record),
 };
 
 fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {

@@ -164,7 +164,7 @@ fn state_zero_means_one_answer_for_every_light_sample() {
         kept += case.case.state.iter().filter(|state| **state == KEPT).count();
     }
     println!("{zero} of {kept} view-samples have one answer; {close} more in the contact band differ");
-    assert!(4 * zero > kept && 1000 * close < kept, "{zero} of {kept}, {close}");
+    assert!(5 * zero > kept && 1000 * close < kept, "{zero} of {kept}, {close}");
 }
 
 #[test]
@@ -182,28 +182,56 @@ fn random_triangles_are_restricted_exactly_too() {
     assert!(zero > 2000 && close < 20, "{zero} {close}");
 }
 
-#[test]
-fn an_edge_that_is_taken_for_an_inner_one_is_missed() {
-    let mut wrong = 0;
-    for seed in 0..40 {
-        let case = closed(seed, 40);
-        let mut inputs = inputs(&case);
-        let sound = states(&inputs);
-        for (port, array) in &mut inputs {
-            if *port == "across" {
-                // Silhouettes between two triangles are said to have their own triangle across.
-                let rows = array.words_mut();
-                for at in (0..rows.len()).step_by(2) {
-                    rows[at] = (at / 3) as u32;
-                }
+/// States when edges of `across` for which `is_planted` says so are taken for inner ones: their own triangle is said to be across.
+fn planted(case: &SoftCase, is_planted: impl Fn(usize) -> bool) -> Vec<u32> {
+    let mut inputs = inputs(case);
+    for (port, array) in &mut inputs {
+        if *port == "across" {
+            for (at, word) in array.words_mut().iter_mut().enumerate().filter(|(at, _)| is_planted(*at)) {
+                *word = (at / 3) as u32;
             }
         }
-        let planted = states(&inputs);
-        assert!(planted.iter().zip(&sound).all(|(planted, sound)| planted <= sound));
-        wrong += parted(&case, &planted)[0].len();
     }
-    println!("{wrong} view-samples are wrong");
-    assert!(wrong > 50, "{wrong}");
+    states(&inputs)
+}
+
+#[test]
+fn silhouettes_that_are_taken_for_inner_edges_are_missed() {
+    let wrong = |seed| {
+        let case = closed(seed, 40);
+        parted(&case, &planted(&case, |_| true))[0].len()
+    };
+    let wrong = (0..40).map(wrong).sum::<usize>();
+    assert!(wrong > 200, "{wrong}");
+}
+
+#[test]
+fn one_edge_of_a_card_that_is_taken_for_an_inner_one_is_missed() {
+    let mut case = closed(7, 40);
+    let scene = &mut case.case;
+    let flat = |x: f32, y: f32, z: f32| [x, y, z];
+    let quad = |s: f32, y: f32| {
+        let [a, b, c, d] = [flat(-s, y, -s), flat(-s, y, s), flat(s, y, s), flat(s, y, -s)];
+        [[a, b, c], [a, c, d]]
+    };
+    scene.triangles = [quad(3.0, 0.0), quad(1.0, 1.0)].concat();
+    scene.casts = vec![1; 4];
+    case.samples = disc(&mut Random(3), [0.0, 4.0, 0.0], [0.0, 1.0, 0.0], 0.1, 40);
+    scene.light = light_fit::origin(&case.samples).to_array();
+    let at = |k: usize| flat((k % 20) as f32 * 0.29 - 2.755, 0.0, (k / 20) as f32 * 0.29 - 2.755);
+    scene.position = (0..400).map(at).collect();
+    scene.triangle = scene.position.iter().map(|[x, _, z]| u32::from(x > z)).collect();
+    scene.state = vec![KEPT; 400];
+    scene.side = 32;
+    scene.look(false, false);
+    assert_eq!(parted(&case, &planted(&case, |_| false)).concat(), []);
+    let zero = planted(&case, |_| false).iter().filter(|state| **state == 0).count();
+    assert!(zero > 250, "{zero} of 400");
+    // Corner 0 to 1, and 1 to 2, of the card's first triangle.
+    for edge in [6, 7] {
+        let wrong = parted(&case, &planted(&case, |at| at == edge))[0].len();
+        assert!(wrong > 3, "{wrong} view-samples are wrong without edge {edge}");
+    }
 }
 
 #[test]
@@ -262,9 +290,15 @@ fn behind_edges(seed: u64, kind: &str) -> (soft_scenes::Soft, Vec<(usize, Corner
         let light: Vec<[f32; 3]> = (0..2).map(|step| soft.light[(7 * row + step) % soft.light.len()]).collect();
         let from = mix(light[0], light[1], true);
         let beyond = [0.0, 1e-3, 0.5, 4.0][row % 4];
-        case.position[row] = [0, 1, 2].map(|k| (on[k] + beyond * (on[k] - from[k])) as f32);
+        let exact = [0, 1, 2].map(|k| on[k] + beyond * (on[k] - from[k]));
+        case.position[row] = exact.map(|x| x as f32);
         case.state[row] = KEPT;
-        behind.push((row, [a, b, b]));
+        // Far from the scene's origin rounding moves a view-sample off the segment.
+        let moved = (0..3).map(|k| (exact[k] - f64::from(case.position[row][k])).abs()).sum::<f64>();
+        let away = (0..3).map(|k| (exact[k] - f64::from(case.light[k])).abs()).sum::<f64>();
+        if moved < 3e-7 * away {
+            behind.push((row, [a, b, b]));
+        }
     }
     let six = case.faces.len() == 6;
     case.look(six, false);
