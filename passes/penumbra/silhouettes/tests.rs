@@ -40,14 +40,16 @@ fn parted(case: &SoftCase, states: &[u32]) -> [Vec<usize>; 2] {
     let scene = &case.case;
     let band =
         contact_band(&scene.triangles, &scene.casts, &case.samples, &scene.position, &scene.triangle, &rows, 4.0);
-    [false, true].map(|in_band| rows.iter().zip(&band).filter(|(_, band)| **band == in_band).map(|(row, _)| *row).collect())
+    [false, true]
+        .map(|in_band| rows.iter().zip(&band).filter(|(_, band)| **band == in_band).map(|(row, _)| *row).collect())
 }
 
 /// A ball of 8 x 6 quads, closed and outwards.
 fn ball(centre: Vec3, radius: f32) -> Vec<Corners> {
     let (round, high) = (8usize, 6usize);
     let at = |i: usize, j: usize| {
-        let (turn, lift) = (i as f32 / round as f32 * std::f32::consts::TAU, j as f32 / high as f32 * std::f32::consts::PI);
+        let (turn, lift) =
+            (i as f32 / round as f32 * std::f32::consts::TAU, j as f32 / high as f32 * std::f32::consts::PI);
         // Poles are one point each.
         let wide = if j == 0 || j == high { 0.0 } else { lift.sin() };
         let turn = if wide == 0.0 || i == round { 0.0 } else { turn };
@@ -72,6 +74,27 @@ fn block(low: Vec3, size: Vec3, turn: f32) -> Vec<Corners> {
     };
     let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).map(|quad| quad.map(corner)).collect()
+}
+
+/// A point of a triangle near the shadow of some edge, and that triangle.
+fn behind_an_edge(triangles: &[Corners], samples: &[[f32; 3]], r: &mut Random) -> Option<([f32; 3], usize)> {
+    let corners = triangles[32.min(triangles.len() - 1) + r.below(triangles.len().saturating_sub(32).max(1))];
+    let k = r.below(3);
+    let [a, b] = [corners[k], corners[(k + 1) % 3]].map(|corner| Vec3::from(corner).as_dvec3());
+    let from = Vec3::from(samples[r.below(samples.len())]).as_dvec3();
+    let on = a + f64::from(0.5 + 0.5 * r.signed()) * (b - a);
+    let along = on - from + 0.01 * a.distance(b) * Vec3::from(r.point()).as_dvec3();
+    // The nearest triangle beyond the edge.
+    let hit = |(index, corners): (usize, &Corners)| {
+        let [a, b, c] = corners.map(|corner| Vec3::from(corner).as_dvec3());
+        let normal = (b - a).cross(c - a);
+        let t = normal.dot(a - from) / normal.dot(along);
+        let at = from + t * along;
+        let is_inside = [(a, b), (b, c), (c, a)].iter().all(|(p, q)| (*q - *p).cross(at - *p).dot(normal) >= 0.0);
+        (t > 1.02 && t.is_finite() && is_inside).then_some((t, at.as_vec3().to_array(), index))
+    };
+    let nearest = triangles.iter().enumerate().filter_map(hit).min_by(|one, other| one.0.total_cmp(&other.0));
+    nearest.map(|(_, position, own)| (position, own))
 }
 
 /// Closed meshes that stand on a floor, touch it, hang over it or stand in one another; some with a triangle taken out, doubled, turned
@@ -121,8 +144,9 @@ fn closed(seed: u64, light_sample_count: usize) -> SoftCase {
     let place = |p: [f32; 3]| (scale * Vec3::from(p) + offset).to_array();
     case.triangles = triangles.into_iter().map(|corners| corners.map(place)).collect();
     case.casts = case.triangles.iter().map(|_| u32::from(r.below(60) > 0)).collect();
-    let radius = [0.02, 0.1, 0.4, 1.0][r.below(4)];
-    let centre = Vec3::new(0.7 * r.signed(), [2.5, 4.0, 1.0][r.below(3)], 0.7 * r.signed());
+    let radius = [0.05, 0.1, 0.2, 1.0][r.below(4)];
+    let aside = [0.7, 4.0, 4.0][r.below(3)];
+    let centre = Vec3::new(aside * r.signed(), [2.5, 4.0, 1.5][r.below(3)], aside * r.signed());
     let normal = Vec3::new(0.3 * r.signed(), 1.0, 0.3 * r.signed()).to_array();
     let is_ball = r.below(2) == 0;
     let samples: Vec<[f32; 3]> = disc(r, centre.to_array(), normal, radius, light_sample_count);
@@ -130,8 +154,17 @@ fn closed(seed: u64, light_sample_count: usize) -> SoftCase {
     let samples: Vec<[f32; 3]> = samples.into_iter().map(lift).map(place).collect();
     case.light = light_fit::origin(&samples).to_array();
     (case.position, case.triangle, case.state) = (Vec::new(), Vec::new(), Vec::new());
-    for _ in 0..150 {
-        let own = if r.below(2) == 0 { r.below(32) } else { r.below(case.triangles.len()) }.min(case.triangles.len() - 1);
+    for row in 0..150 {
+        let own =
+            if r.below(2) == 0 { r.below(32) } else { r.below(case.triangles.len()) }.min(case.triangles.len() - 1);
+        if row % 2 == 0
+            && let Some((position, own)) = behind_an_edge(&case.triangles, &samples, r)
+        {
+            case.position.push(position);
+            case.triangle.push(own as u32);
+            case.state.push(KEPT);
+            continue;
+        }
         let [a, b, c] = case.triangles[own].map(Vec3::from);
         let (mut s, mut t) = (0.5 + 0.5 * r.signed(), 0.5 + 0.5 * r.signed());
         match r.below(12) {
@@ -164,7 +197,7 @@ fn state_zero_means_one_answer_for_every_light_sample() {
         kept += case.case.state.iter().filter(|state| **state == KEPT).count();
     }
     println!("{zero} of {kept} view-samples have one answer; {close} more in the contact band differ");
-    assert!(5 * zero > kept && 1000 * close < kept, "{zero} of {kept}, {close}");
+    assert!(8 * zero > kept && 1000 * close < kept, "{zero} of {kept}, {close}");
 }
 
 #[test]
@@ -216,7 +249,7 @@ fn one_edge_of_a_card_that_is_taken_for_an_inner_one_is_missed() {
     };
     scene.triangles = [quad(3.0, 0.0), quad(1.0, 1.0)].concat();
     scene.casts = vec![1; 4];
-    case.samples = disc(&mut Random(3), [0.0, 4.0, 0.0], [0.0, 1.0, 0.0], 0.1, 40);
+    case.samples = disc(&mut Random(3), [0.0, 4.0, 0.0], [0.0, 1.0, 0.0], 0.5, 40);
     scene.light = light_fit::origin(&case.samples).to_array();
     let at = |k: usize| flat((k % 20) as f32 * 0.29 - 2.755, 0.0, (k / 20) as f32 * 0.29 - 2.755);
     scene.position = (0..400).map(at).collect();
@@ -226,7 +259,7 @@ fn one_edge_of_a_card_that_is_taken_for_an_inner_one_is_missed() {
     scene.look(false, false);
     assert_eq!(parted(&case, &planted(&case, |_| false)).concat(), []);
     let zero = planted(&case, |_| false).iter().filter(|state| **state == 0).count();
-    assert!(zero > 250, "{zero} of 400");
+    assert!(zero > 150, "{zero} of 400");
     // Corner 0 to 1, and 1 to 2, of the card's first triangle.
     for edge in [6, 7] {
         let wrong = parted(&case, &planted(&case, |at| at == edge))[0].len();
