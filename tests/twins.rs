@@ -120,7 +120,12 @@ fn node_faults(node: &Node, inputs: Named, cpu: &[(&'static str, &Array)], gpu: 
             .filter_map(|(name, wanted)| {
                 let found = port(name)?;
                 // A pixel centre within rounding of an edge may see either triangle; the rasteriser snaps corners to a grid.
-                let one_in = if node.pass.stage.name == "view_samples" { 200 } else { 1000 };
+                // Both penumbra states hold all that may differ, by bounds of their own.
+                let one_in = match node.pass.stage.name {
+                    "view_samples" => 200,
+                    "penumbra" => 20,
+                    _ => 1000,
+                };
                 let lights =
                     inputs.iter().find(|(port, _)| *port == "light_samples").map_or(0, |(_, array)| array.dim(0));
                 if *name == "mask" && lights > 1 {

@@ -14,7 +14,7 @@ struct Numbers {
 @group(0) @binding(4) var<storage, read> light_frame: array<f32>;
 // See influence_walk.wgsl, which reads them.
 @group(0) @binding(5) var<storage, read_write> regions: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> across: array<u32>;
+@group(0) @binding(6) var<storage, read> triangle_across: array<u32>;
 @group(0) @binding(7) var<storage, read> light_box: array<vec4<f32>>;
 // 1 for each of all borders that there is.
 @group(0) @binding(8) var<storage, read_write> border_state: array<u32>;
@@ -42,7 +42,7 @@ fn is_border(triangle: u32, k: u32, counts: bool) -> bool {
         }
         return side == 0.0;
     }
-    let other = across[3u * triangle + k];
+    let other = triangle_across[3u * triangle + k];
     // The other of two tells of their edge.
     if other != NO_TRIANGLE && other < triangle {
         return false;

@@ -10,15 +10,19 @@ use crate::shared::pair_walk::{Side, mark_cells};
 use crate::shared::predicate::Corners;
 use crate::shared::pyramid::LightSpace;
 use crate::shared::soft_scenes::{self, LIGHTS};
-use crate::visibility::half_planes;
 use glam::Vec3;
 use shadowgraph_core::array::Array;
+use shadowgraph_core::pass::Pass;
 use shadowgraph_core::shared::{KEPT, NO_CELL};
+
+fn pass(stage: &str, name: &str) -> &'static Pass {
+    crate::catalogue().pass(stage, name).expect("a pass")
+}
 
 /// Inputs of the pass and of visibility, `across` among them.
 fn inputs(case: &SoftCase) -> Inputs {
     let mut inputs = case.inputs(3);
-    let (outputs, _) = run(&crate::adjacency::half_edges::PASS, &inputs).unwrap();
+    let (outputs, _) = run(pass("adjacency", "half_edges"), &inputs).unwrap();
     inputs.extend(outputs);
     inputs
 }
@@ -274,9 +278,9 @@ fn masks_with_states_are_those_without() {
         let mut inputs = inputs(&case);
         let states = states(&inputs);
         let kept = parted(&case, &states)[1].clone();
-        let (whole, before) = run(&half_planes::PASS, &inputs).unwrap();
+        let (whole, before) = run(pass("visibility", "half_planes"), &inputs).unwrap();
         inputs.push(("penumbra_state", Array::u32([states.len()], states)));
-        let (restricted, after) = run(&half_planes::PASS, &inputs).unwrap();
+        let (restricted, after) = run(pass("visibility", "half_planes"), &inputs).unwrap();
         let words = case.samples.len().div_ceil(32);
         let [whole, restricted] = [&whole, &restricted].map(|outputs| output(outputs, "mask").as_u32().chunks(words));
         for (row, (whole, restricted)) in whole.zip(restricted).enumerate() {
@@ -294,7 +298,7 @@ fn a_state_of_zero_is_believed() {
         let case = closed(seed, 40);
         let mut inputs = inputs(&case);
         inputs.push(("penumbra_state", Array::u32([150], vec![0; 150])));
-        let (outputs, _) = run(&half_planes::PASS, &inputs).unwrap();
+        let (outputs, _) = run(pass("visibility", "half_planes"), &inputs).unwrap();
         let cell = output(&inputs, "cell").as_u32();
         for (row, mask) in output(&outputs, "mask").as_u32().chunks(2).enumerate() {
             let is_whole = mask == [0, 0] || mask == [u32::MAX, 0xff] || mask == [u32::MAX; 2];
