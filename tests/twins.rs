@@ -40,6 +40,7 @@ const GRAPHS: &[(&str, &[&str])] = &[
 /// Graphs for any number of light samples, which run with some, too: 33 are two words of mask, the second nearly empty.
 const SOFT: &[(&str, &[&str])] = &[
     ("truth_soft", &["combine=weighted", "bent_light=bounding_box", "shade=full_sum"]),
+    ("soft_penumbra", &[]),
     ("rays_soft", &[]),
     ("pcss", &[]),
     ("multi_shadow_map", &[]),

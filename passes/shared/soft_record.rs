@@ -1,4 +1,5 @@
-//! The recipe that passes of soft visibility share: the light's box, masks, the join, and what it leaves in doubt.
+//! The recipe that passes of soft visibility share: the light's box, masks, the join, and what it leaves in doubt. Where
+//! `penumbra_state` is connected it joins twice: what it sets apart with the first light sample, the rest with all.
 
 use super::light_box_gpu::{BLOCK, record_light_box};
 use super::segments::mask_words;

@@ -1,6 +1,6 @@
 use super::PASS;
 use super::cpu::{BOUNDS, SHAPE};
-use crate::shared::area_light_scenes::{SoftCase, disc, soft};
+use crate::shared::area_light_scenes::{SoftCase, add_table, disc, soft};
 use crate::shared::contact::contact_band;
 use crate::shared::footprint::{Grid, reach_among};
 use crate::shared::hard_scenes::{Case, Inputs, Random, output, random, run};
@@ -276,17 +276,23 @@ fn masks_with_states_are_those_without() {
     for seed in 0..80 {
         let case = closed(1000 + seed, [1, 32, 70][seed as usize % 3]);
         let mut inputs = inputs(&case);
+        add_table(&mut inputs, "certain_uncertain", 16);
         let states = states(&inputs);
-        let kept = parted(&case, &states)[1].clone();
-        let (whole, before) = run(pass("visibility", "half_planes"), &inputs).unwrap();
-        inputs.push(("penumbra_state", Array::u32([states.len()], states)));
-        let (restricted, after) = run(pass("visibility", "half_planes"), &inputs).unwrap();
-        let words = case.samples.len().div_ceil(32);
-        let [whole, restricted] = [&whole, &restricted].map(|outputs| output(outputs, "mask").as_u32().chunks(words));
-        for (row, (whole, restricted)) in whole.zip(restricted).enumerate() {
-            assert!(whole == restricted || kept.contains(&row), "seed {seed}, view-sample {row}");
+        let in_band = parted(&case, &states)[1].clone();
+        let with_states = [&inputs[..], &[("penumbra_state", Array::u32([states.len()], states))]].concat();
+        for name in ["half_planes", "lu_certain"] {
+            let pass = pass("visibility", name);
+            let ((whole, before), (restricted, after)) =
+                (run(pass, &inputs).unwrap(), run(pass, &with_states).unwrap());
+            let words = case.samples.len().div_ceil(32);
+            let [whole, restricted] =
+                [&whole, &restricted].map(|outputs| output(outputs, "mask").as_u32().chunks(words));
+            for (row, (whole, restricted)) in whole.zip(restricted).enumerate() {
+                assert!(whole == restricted || in_band.contains(&row), "{name}, seed {seed}, view-sample {row}");
+            }
+            let cut = pass.counter_index("cut_pairs");
+            assert!(after[cut] <= before[cut], "{name}: more pairs are cut");
         }
-        assert!(after[2] <= before[2], "more pairs are cut");
     }
 }
 
