@@ -2,7 +2,6 @@
 
 use super::candidates::Candidates;
 use super::groups::{Blocks, Frame, LightBox, Slanted, every, size, tree_len};
-use crate::shared::neighbours::Neighbours;
 use super::order::Order;
 use super::own::{OwnPlanes, Owners, Verdict, World};
 use super::patches::{Choice, HELD_BACK, MIXED, Patches, UNKNOWN};
@@ -10,6 +9,7 @@ use super::rays::{Leaves, Seen};
 use super::shaft::{CORNER_ERROR, EDGE_ERROR, PLANE_ERROR, Shaft, TINY, Vector, dot, dot_one, from, load, minus};
 use super::tree::{Casters, Node};
 use super::{LANES, lanes_from};
+use crate::shared::neighbours::Neighbours;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, u32x16};
 
 /// What a cluster reads.

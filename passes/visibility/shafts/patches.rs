@@ -13,8 +13,8 @@
 use super::LANES;
 use super::cluster::{Scene, Slot, Worker};
 use super::groups::{LightBox, Range, Slanted};
-use crate::shared::neighbours::NONE;
 use super::shaft::Shaft;
+use crate::shared::neighbours::NONE;
 use crate::shared::predicate::blocks;
 use fearless_simd::Simd;
 
