@@ -25,6 +25,11 @@
 //! such a triangle of another mesh passes between it and its plane, light samples may differ by that much: the contact band
 //! ([`crate::shared::contact`]). A view-sample further below has state 1.
 //!
+//! What it saves: passes of stage `visibility` decide planes for the whole light at once, and influence regions leave lit cells empty,
+//! so only large umbrae of finely divided casters are left to win. The torus knot under a small light (radius 0.1, 256 light samples,
+//! 512x512, CPU) spends 265 ms in place of 410 on visibility for 39 ms here; columns and Sponza under their own lights gain less than
+//! this pass costs.
+//!
 //! Departs from the paper: the own triangle; triangles whose planes cut the light; the answer of view-samples, not of cells.
 
 mod cpu;
