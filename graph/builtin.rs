@@ -11,6 +11,7 @@ const BUILTIN: &[(&str, &str)] = &[
     ("multi_shadow_map", include_str!("variants/multi_shadow_map.ron")),
     ("rays", include_str!("variants/rays.ron")),
     ("soft", include_str!("variants/soft.ron")),
+    ("soft_penumbra", include_str!("variants/soft_penumbra.ron")),
     ("soft_lu", include_str!("variants/soft_lu.ron")),
     ("soft_lu_planar", include_str!("variants/soft_lu_planar.ron")),
     ("soft_certain", include_str!("variants/soft_certain.ron")),

@@ -6,6 +6,7 @@
 pub mod ports;
 pub mod shared;
 
+pub mod adjacency;
 pub mod bent_light;
 pub mod bvh_build;
 pub mod caster_fill;
@@ -17,6 +18,7 @@ pub mod light_frame;
 pub mod list_build;
 pub mod list_fill;
 pub mod lu_table;
+pub mod penumbra;
 pub mod present;
 pub mod sample_filter;
 pub mod scan;
@@ -29,7 +31,7 @@ use shadowgraph_core::pass::{Catalogue, Pass};
 
 /// All passes of this crate, stage by stage in the order of a frame.
 pub fn catalogue() -> Catalogue {
-    let stages: [&[&'static Pass]; 18] = [
+    let stages: [&[&'static Pass]; 20] = [
         view_samples::PASSES,
         sample_filter::PASSES,
         light_frame::PASSES,
@@ -39,6 +41,8 @@ pub fn catalogue() -> Catalogue {
         casters::PASSES,
         conservative_raster::PASSES,
         caster_fill::PASSES,
+        adjacency::PASSES,
+        penumbra::PASSES,
         lu_table::PASSES,
         bvh_build::PASSES,
         visibility::PASSES,

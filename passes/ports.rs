@@ -66,6 +66,13 @@ pub const LIST_ENTRIES: Port =
 /// Caster states.
 pub const CASTER_STATE: Port =
     Port::new(Out, "caster_state", U32, "caster_state", "T").doc("1: the triangle casts; 0: left out");
+/// Triangles across edges.
+pub const ACROSS: Port = Port::new(Out, "across", U32, "triangle_across", "T 3").doc(
+    "the casting triangle across each edge, from a corner to the next, of a casting triangle; all bits set: none, or not just one wound alike",
+);
+/// Penumbra states.
+pub const PENUMBRA_STATE: Port = Port::new(Out, "penumbra_state", U32, "penumbra_state", "P")
+    .doc("0: every light sample has one answer; 1: light samples may differ, and are asked one by one");
 /// Pair cells.
 pub const PAIR_CELL: Port = Port::new(Out, "pair_cell", U32, "cell", "E").doc("cell of each (cell, caster) pair");
 /// Pair places.

@@ -19,7 +19,9 @@ const LIGHT: &[&str] = &["--light-samples", "40", "--light-radius", "2"];
 /// Graphs on both backends.
 pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
-    for graph in ["hard", "hard_fused", "shadow_map", "soft", "soft_certain", "soft_lu", "pcss", "rays_soft"] {
+    for graph in
+        ["hard", "hard_fused", "shadow_map", "soft", "soft_certain", "soft_penumbra", "soft_lu", "pcss", "rays_soft"]
+    {
         trials.push(Trial::test(format!("ranges/{graph}/cpu"), move || equal(graph, BackendChoice::Cpu)));
         trials.push(gpu::trial(format!("ranges/{graph}/wgpu"), move |_| equal(graph, BackendChoice::Wgpu)));
     }

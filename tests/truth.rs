@@ -30,7 +30,7 @@ fn scenes() -> Vec<String> {
 const EXACT: &[&str] = &["hard", "hard_fused"];
 const GPU_SHARE: f64 = 1e-5;
 /// The same for area lights, every light sample a bit.
-const EXACT_SOFT: &[&str] = &["soft", "soft_certain"];
+const EXACT_SOFT: &[&str] = &["soft", "soft_certain", "soft_penumbra"];
 /// Light of the scenes for them: two words of samples, and wide.
 const AREA_LIGHT: &[&str] = &["--light-samples", "40", "--light-radius", "0.3"];
 /// Graphs that answer by a table, and the light they do it for.

@@ -31,6 +31,7 @@ const GRAPHS: &[(&str, &[&str])] = &[
     ("soft_lu", &[]),
     ("soft_lu_planar", &[]),
     ("soft_certain", &[]),
+    ("soft_penumbra", &[]),
     ("rays", &[]),
     ("pcss", &[]),
     ("multi_shadow_map", &[]),
@@ -39,6 +40,7 @@ const GRAPHS: &[(&str, &[&str])] = &[
 /// Graphs for any number of light samples, which run with some, too: 33 are two words of mask, the second nearly empty.
 const SOFT: &[(&str, &[&str])] = &[
     ("truth_soft", &["combine=weighted", "bent_light=bounding_box", "shade=full_sum"]),
+    ("soft_penumbra", &[]),
     ("rays_soft", &[]),
     ("pcss", &[]),
     ("multi_shadow_map", &[]),
@@ -119,7 +121,12 @@ fn node_faults(node: &Node, inputs: Named, cpu: &[(&'static str, &Array)], gpu: 
             .filter_map(|(name, wanted)| {
                 let found = port(name)?;
                 // A pixel centre within rounding of an edge may see either triangle; the rasteriser snaps corners to a grid.
-                let one_in = if node.pass.stage.name == "view_samples" { 200 } else { 1000 };
+                // Both penumbra states hold all that may differ, by bounds of their own.
+                let one_in = match node.pass.stage.name {
+                    "view_samples" => 200,
+                    "penumbra" => 20,
+                    _ => 1000,
+                };
                 let lights =
                     inputs.iter().find(|(port, _)| *port == "light_samples").map_or(0, |(_, array)| array.dim(0));
                 if *name == "mask" && lights > 1 {

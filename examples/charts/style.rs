@@ -50,6 +50,7 @@ const ORDER: &[&str] = &[
     "hard_draw",
     "soft",
     "soft_certain",
+    "soft_penumbra",
     "soft_lu",
     "soft_lu_planar",
     "soft_shafts",

@@ -22,9 +22,11 @@ list_fill: cell slot list_offset -> list_entries
 casters: triangles triangle_flags light_samples -> caster_state
 conservative_raster: triangles caster_state light_samples light_frame list_length list_far -> pair_cell pair_slot caster_length
 caster_fill: pair_cell pair_slot caster_offset -> caster_entries
+adjacency: triangles caster_state -> across
+penumbra: triangles caster_state across light_samples light_frame position sample_state cell list_length list_far -> penumbra_state
 lu_table: light_samples -> lu lu_layout
 bvh_build: triangles caster_state -> bvh_nodes bvh_order
-visibility: triangles caster_state light_samples position sample_state cell list_length list_offset list_entries caster_offset caster_entries lu? lu_layout? bvh_nodes? bvh_order? -> mask
+visibility: triangles caster_state light_samples position sample_state cell list_length list_offset list_entries caster_offset caster_entries lu? lu_layout? bvh_nodes? bvh_order? penumbra_state? -> mask
 light_depth: triangles caster_state light_frame -> depth
 shadow_lookup: depth light_frame position sample_state -> mask visible
 combine: mask sample_state -> visible
@@ -54,21 +56,23 @@ conservative_raster/binning cw - -
 conservative_raster/influence cw - -
 conservative_raster/device w - -
 caster_fill/direct cw - -
+adjacency/half_edges c - -
+penumbra/silhouettes cw - -
 lu_table/angles_distance cw - size
 lu_table/planar cw - size
 lu_table/certain_uncertain cw - size
-visibility/planes cw lu,lu_layout,bvh_nodes,bvh_order -
+visibility/planes cw lu,lu_layout,bvh_nodes,bvh_order,penumbra_state -
 visibility/lu cw bvh_nodes,bvh_order -
 visibility/lu_planar cw bvh_nodes,bvh_order -
 visibility/lu_certain cw bvh_nodes,bvh_order -
-visibility/fused cw caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
-visibility/fused_draw w caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
+visibility/fused cw caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state -
+visibility/fused_draw w caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state -
 visibility/half_planes cw list_length,lu,lu_layout,bvh_nodes,bvh_order -
-visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout -
-visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order contact_ulps
-visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order patches,leaves
+visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,penumbra_state -
+visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state contact_ulps
+visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state patches,leaves
 bvh_build/ploc c - -
-visibility/multi_shadow_map cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
+visibility/multi_shadow_map cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state -
 light_depth/first_surface cw - size,bias
 shadow_lookup/compare cw - -
 shadow_lookup/pcf cw - taps

@@ -19,11 +19,11 @@
 //! Where t touches B there are neither, and the region is the whole face. Slack for the rounding of view-samples is that of
 //! [`crate::shared::footprint`].
 
-use super::face_light::{ERROR, FaceLight, Line};
+use super::face_light::{Bounds, ERROR, FaceLight, Line};
 use super::footprint::{Grid, SLACK};
 use super::hull::{HULL_ROOM, MOST_POINTS, hull_of_three};
-use super::light_bound::{Vector, minus};
-use super::pair_walk::Region;
+use super::light_bound::{Body, Shape, Vector, minus};
+use super::pair_walk::{Region, Side};
 use super::pyramid::{cross, dot, size};
 
 /// Planes: the caster's own, and two through each edge.
@@ -46,6 +46,14 @@ pub struct Influence {
     least_q: f64,
     /// Whether nothing bounds it.
     pub is_whole: bool,
+}
+
+/// The light as each of `sides` sees it.
+pub fn face_lights(sides: &[Side], samples: &[[f32; 3]], shape: Shape, bounds: Bounds) -> Vec<FaceLight> {
+    // Faces share their origin.
+    let origin = sides.first().map_or([0.0; 3], |side| side.face.origin.to_array());
+    let body = Body::around(samples, origin, shape, bounds.sides);
+    sides.iter().map(|side| FaceLight::new(body.turned(&side.space), bounds)).collect()
 }
 
 impl FaceLight {

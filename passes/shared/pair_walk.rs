@@ -40,8 +40,7 @@ pub struct Side {
 struct Walk<'a> {
     triangles: &'a [Corners],
     caster_state: &'a [u32],
-    full: Full,
-    list_far: &'a [f32],
+    cells: Cells<'a>,
     caster_length: Vec<AtomicU32>,
     pairs: AtomicU64,
     behind: AtomicU64,
@@ -74,6 +73,12 @@ impl Full {
     }
 }
 
+/// Cells of the light's image, as regions are walked.
+struct Cells<'a> {
+    full: Full,
+    list_far: &'a [f32],
+}
+
 /// One pair: cell, slot, caster.
 type Pair = [u32; 3];
 
@@ -104,8 +109,7 @@ pub fn put_pairs<R: Region>(
     let walk = Walk {
         triangles: bytemuck::cast_slice(cx.input("triangles").as_f32()),
         caster_state: cx.input("caster_state").as_u32(),
-        list_far: cx.input("list_far").as_f32(),
-        full: Full::new(list_length),
+        cells: Cells { full: Full::new(list_length), list_far: cx.input("list_far").as_f32() },
         caster_length: list_length.iter().map(|_| AtomicU32::new(0)).collect(),
         pairs: AtomicU64::new(0),
         behind: AtomicU64::new(0),
@@ -133,6 +137,27 @@ pub fn put_pairs<R: Region>(
     Ok(())
 }
 
+/// Cells `[F S S]` with view-samples that the region of some of `triangles` meets: 1; others: 0. `list_length` and `list_far` as
+/// their ports, `region` as of [`put_pairs`].
+pub fn mark_cells<R: Region>(
+    triangles: &[Corners],
+    sides: &[Side],
+    list_length: &[u32],
+    list_far: &[f32],
+    region: impl Fn(usize, &Corners) -> Option<R> + Sync,
+) -> Vec<u32> {
+    let cells = Cells { full: Full::new(list_length), list_far };
+    let marks: Vec<AtomicU32> = list_length.iter().map(|_| AtomicU32::new(0)).collect();
+    triangles.par_iter().with_min_len(CASTERS_A_TASK).for_each(|corners| {
+        for (face, side) in sides.iter().enumerate().filter(|(_, side)| side.face.valid) {
+            if let Some(region) = region(face, corners) {
+                cells.walk(face, &side.grid, &region, &mut 0, |cell| marks[cell].store(1, Relaxed));
+            }
+        }
+    });
+    marks.into_iter().map(AtomicU32::into_inner).collect()
+}
+
 impl Walk<'_> {
     /// The pairs of the casters from `first` on; once all together are too many they are only counted.
     fn task<R: Region>(
@@ -147,7 +172,7 @@ impl Walk<'_> {
         for caster in casters.filter(|caster| self.caster_state[*caster] != 0) {
             for (face, side) in sides.iter().enumerate().filter(|(_, side)| side.face.valid) {
                 let Some(region) = region(face, &self.triangles[caster]) else { continue };
-                self.cells(face, &side.grid, &region, &mut behind, |cell| {
+                self.cells.walk(face, &side.grid, &region, &mut behind, |cell| {
                     count += 1;
                     // Looking once in a while bounds what is stored beyond the cap.
                     full = full || (count % 4096 == 1 && self.pairs.load(Relaxed) + count > self.most_pairs);
@@ -162,9 +187,11 @@ impl Walk<'_> {
         self.behind.fetch_add(behind, Relaxed);
         pairs
     }
+}
 
+impl Cells<'_> {
     /// Calls `pair` with each cell of `face` that `region` is to be listed in.
-    fn cells<R: Region>(&self, face: usize, grid: &Grid, region: &R, behind: &mut u64, mut pair: impl FnMut(usize)) {
+    fn walk<R: Region>(&self, face: usize, grid: &Grid, region: &R, behind: &mut u64, mut pair: impl FnMut(usize)) {
         let rows = region.rows();
         for row in rows[0]..=rows[1] {
             let Some([first, last]) = region.span(grid, row) else {

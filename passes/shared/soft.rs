@@ -2,6 +2,8 @@
 //!
 //! Cells run in parallel. In each, every view-sample meets the casters that the cell lists until its mask is full. A view-sample that no
 //! cell lists meets every casting triangle. How one caster's share of the light is found is the pass's own ([`PairTest`]).
+//!
+//! Where `penumbra_state` says that the whole light has one answer, one light sample is asked and answers for all.
 
 use super::light_box::LightBox;
 use super::predicate::{self, Corners};
@@ -11,7 +13,7 @@ use rayon::prelude::*;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::shared::{BACKGROUND, KEPT, NO_CELL, NO_TRIANGLE};
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
 /// View-samples that one task takes.
 const TASK: usize = 256;
@@ -55,6 +57,7 @@ impl Pair<'_> {
 }
 
 /// Inputs of a soft visibility pass.
+#[derive(Clone)]
 pub struct Soft<'a> {
     /// Corners of every triangle.
     pub triangles: &'a [Corners],
@@ -74,6 +77,8 @@ pub struct Soft<'a> {
     pub caster_offset: &'a [u32],
     /// Casters by cell.
     pub caster_entries: &'a [u32],
+    /// 0 for each view-sample to which the whole light has one answer; none: nothing is known.
+    pub penumbra_state: Option<&'a [u32]>,
     /// Light samples.
     pub light: LightBox<'a>,
 }
@@ -114,6 +119,7 @@ impl<'a> Soft<'a> {
             listed: &cx.input("list_entries").as_u32()[..listed],
             caster_offset: cx.input("caster_offset").as_u32(),
             caster_entries: cx.input("caster_entries").as_u32(),
+            penumbra_state: cx.optional("penumbra_state").map(Array::as_u32),
             light,
         }
     }
@@ -135,20 +141,30 @@ impl<'a> Soft<'a> {
         let unlisted: Vec<u32> = (0..self.position.len() as u32)
             .filter(|row| self.sample_state[*row as usize] == KEPT && self.cell[*row as usize] == NO_CELL)
             .collect();
+        let is_whole = |row: &u32| self.penumbra_state.is_some_and(|state| state[*row as usize] == 0);
+        let (whole, partial): (Vec<u32>, Vec<u32>) = self.listed.iter().partition(|row| is_whole(row));
+        // One light sample, the first, in place of all.
+        let first = &self.light.samples[..self.light.samples.len().min(1)];
+        let hard = Soft { light: LightBox::new(first), ..self.clone() };
         let level = Level::new();
-        let (done, total) = (std::sync::atomic::AtomicU64::new(0), (self.listed.len() + unlisted.len()) as u64);
-        let tasks: Vec<(&[u32], bool)> = self
-            .listed
-            .chunks(TASK)
-            .map(|rows| (rows, true))
-            .chain(unlisted.chunks(TASK).map(|rows| (rows, false)))
+        let (done, total) = (AtomicU64::new(0), (self.listed.len() + unlisted.len()) as u64);
+        let tasks: Vec<(&[u32], Asked)> = [(&partial, Asked::Cell), (&whole, Asked::CellOnce), (&unlisted, Asked::All)]
+            .into_iter()
+            .flat_map(|(rows, asked)| rows.chunks(TASK).map(move |rows| (rows, asked)))
             .collect();
         let counts = tasks
             .par_iter()
-            .map(|(rows, listed)| {
-                let casters = |row: usize| if *listed { self.casters_of(row) } else { &everyone };
-                let mut walk = Walk::new(self);
-                dispatch!(level, simd => walk.rows(simd, test, rows, &casters, &masks));
+            .map(|(rows, asked)| {
+                let casters = |row: usize| if *asked == Asked::All { &everyone } else { self.casters_of(row) };
+                // Each view-sample is in one task, so no two threads meet here.
+                let put = |row: usize, mask: &[u32]| {
+                    for (word, to) in masks[row * words..(row + 1) * words].iter().enumerate() {
+                        let whole = if mask[0] == 0 { 0 } else { self.light.used(word) };
+                        to.store(if *asked == Asked::CellOnce { whole } else { mask[word] }, Relaxed);
+                    }
+                };
+                let mut walk = Walk::new(if *asked == Asked::CellOnce { &hard } else { self });
+                dispatch!(level, simd => walk.rows(simd, test, rows, &casters, &put));
                 let count = rows.len() as u64;
                 progress(done.fetch_add(count, Relaxed) + count, total);
                 walk.counts
@@ -163,6 +179,17 @@ impl<'a> Soft<'a> {
         let cell = self.cell[row] as usize;
         &self.caster_entries[self.caster_offset[cell] as usize..self.caster_offset[cell + 1] as usize]
     }
+}
+
+/// Which casters a view-sample meets, and for how much of the light.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Asked {
+    /// Those of its cell, for every light sample.
+    Cell,
+    /// Those of its cell, for one light sample.
+    CellOnce,
+    /// All, for every light sample.
+    All,
 }
 
 /// What one thread keeps.
@@ -249,7 +276,7 @@ impl<'a> Walk<'a> {
         Self { soft, mask: none.clone(), restored: none, own, planes: Planes::EMPTY, counts: Counts::default() }
     }
 
-    /// The view-samples `rows` against their casters.
+    /// The view-samples `rows` against their casters; `put` takes the row and mask of each.
     #[inline(always)]
     fn rows<'b, S: Simd, T: PairTest>(
         &mut self,
@@ -257,9 +284,8 @@ impl<'a> Walk<'a> {
         test: &T,
         rows: &[u32],
         casters: &impl Fn(usize) -> &'b [u32],
-        masks: &[AtomicU32],
+        put: &impl Fn(usize, &[u32]),
     ) {
-        let words = self.mask.len();
         for row in rows.iter().map(|row| *row as usize) {
             self.mask.fill(0);
             self.own.turn_to(self.soft, self.soft.triangle[row]);
@@ -270,10 +296,7 @@ impl<'a> Walk<'a> {
             }
             self.restored.fill(0);
             self.soft.light.restore(&self.mask, &mut self.restored);
-            for (word, mask) in self.restored.iter().enumerate() {
-                // Each view-sample is listed once, so no two threads meet here.
-                masks[row * words + word].store(*mask, Relaxed);
-            }
+            put(row, &self.restored);
         }
     }
 

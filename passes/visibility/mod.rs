@@ -41,6 +41,7 @@ pub static STAGE: Stage = Stage {
         ports::LU_LAYOUT.optional(),
         ports::BVH_NODES.optional(),
         ports::BVH_ORDER.optional(),
+        ports::PENUMBRA_STATE.optional(),
         ports::MASK,
     ],
 };

@@ -17,7 +17,8 @@ use shadowgraph_graph::{Keep, Overrides, Source, builtin, load};
 
 /// A trial for each graph on each backend, and the controls.
 pub fn trials() -> Vec<Trial> {
-    let on_both = ["hard", "hard_fused", "shadow_map", "pcf", "pcss", "multi_shadow_map", "soft", "rays_soft"];
+    let on_both =
+        ["hard", "hard_fused", "shadow_map", "pcf", "pcss", "multi_shadow_map", "soft", "soft_penumbra", "rays_soft"];
     let on = |graph: &'static str, choice| move || unchanged(graph, choice);
     let mut trials = Vec::new();
     for graph in on_both.into_iter().chain(["soft_shafts", "truth_soft"]) {

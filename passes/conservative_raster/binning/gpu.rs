@@ -1,7 +1,7 @@
 //! The recipe: walk small casters, share out large ones.
 
 use crate::shared::light_frame;
-use crate::shared::pair_walk_gpu::{self, Kernel, Queues, record_walk};
+use crate::shared::pair_walk_gpu::{self, Kernel, Queues, Table, record_walk};
 use crate::shared::share::check_hard;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::record::{GpuCx, Target};
@@ -26,7 +26,8 @@ const KERNEL: Kernel = Kernel {
 pub fn record(cx: &mut GpuCx) -> Result<(), Problem> {
     check_hard(cx)?;
     let caster_count = cx.dim("triangles", 0);
-    let queues = Queues::new(cx, caster_count);
-    record_walk(cx, KERNEL, queues, 0..caster_count);
+    let table = Table::pairs(cx);
+    let queues = Queues::new(cx, &table, caster_count);
+    record_walk(cx, KERNEL, &table, queues, 0..caster_count);
     Ok(())
 }

@@ -1,7 +1,8 @@
 //! Casters in parallel; each walks its influence region and claims a slot in every cell that matters.
 
-use crate::shared::face_light::{Bounds, FaceLight};
-use crate::shared::light_bound::{Body, Shape};
+use crate::shared::face_light::Bounds;
+use crate::shared::influence::face_lights;
+use crate::shared::light_bound::Shape;
 use crate::shared::pair_walk::{MOST_PAIRS, put_pairs, sides};
 use shadowgraph_core::cpu::CpuCx;
 use shadowgraph_core::param::Params;
@@ -19,10 +20,7 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let sides = sides(cx);
     let (shape, bounds) = bounds(cx.params());
     let samples = cx.input("light_samples").as_vec3();
-    // Faces share their origin.
-    let origin = sides.first().map_or([0.0; 3], |side| side.face.origin.to_array());
-    let body = Body::around(samples, origin, shape, bounds.sides);
-    let lights: Vec<FaceLight> = sides.iter().map(|side| FaceLight::new(body.turned(&side.space), bounds)).collect();
+    let lights = face_lights(&sides, samples, shape, bounds);
     put_pairs(cx, MOST_PAIRS, &sides, |index, caster| {
         let side = &sides[index];
         lights[index].region(&side.space.corners(caster), &side.grid)

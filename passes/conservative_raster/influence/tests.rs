@@ -141,7 +141,7 @@ fn the_light_side_of_a_slanted_roof_is_cut_off() {
 #[test]
 fn both_kernels_state_one_slack() {
     // The second reads regions that the first made and widens their lines by the same.
-    let kernels = [include_str!("kernel.wgsl"), include_str!("../../shared/face_light.wgsl")];
+    let kernels = [include_str!("../../shared/influence_walk.wgsl"), include_str!("../../shared/face_light.wgsl")];
     let [one, other] = kernels.map(|text| text.lines().find(|line| line.starts_with("const SLACK: f32 = ")));
     assert!(one.is_some() && one == other, "{one:?}, {other:?}");
 }

@@ -55,6 +55,7 @@ pub static PASS: Pass = Pass {
         "caster_entries",
         "lu",
         "lu_layout",
+        "penumbra_state",
     ],
     params: &[],
     counters: &[UNFINISHED],

@@ -46,6 +46,7 @@ pub static PASS: Pass = Pass {
         "lu_layout",
         "bvh_nodes",
         "bvh_order",
+        "penumbra_state",
     ],
     params: &[ParamSpec {
         name: "contact_ulps",

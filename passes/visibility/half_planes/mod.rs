@@ -7,6 +7,7 @@
 //! In: `triangles [T 3 3]` world, `caster_state [T]`, `light_samples [L 3]` world, `position [P 3]` world, `triangle [P]`,
 //! `sample_state [P]`, `cell [P]`, lists of view-samples (`list_offset`, `list_entries`) and of casters (`caster_offset`,
 //! `caster_entries`) by cell.
+//! Optional: `penumbra_state [P]`: where it is 0 the first light sample answers for all.
 //! Out: `mask [P ceil(L/32)]`, bit set = blocked; all bits set for a view-sample facing away, none for background.
 //!
 //! On the CPU the mask equals [`crate::shared::predicate::blocks`] for every light sample, bit for bit, given casters that hold all that

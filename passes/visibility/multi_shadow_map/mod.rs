@@ -71,6 +71,7 @@ pub static PASS: Pass = Pass {
         "lu_layout",
         "bvh_nodes",
         "bvh_order",
+        "penumbra_state",
     ],
     params: &[SIZE, MEMORY, BIAS_CONSTANT, BIAS_SLOPE, NORMAL_OFFSET],
     counters: &[BEHIND],

@@ -3,7 +3,6 @@
 use super::candidates::Candidates;
 use super::groups::{Blocks, Frame, LightBox, Slanted, every, join_boxes, size, tree_len};
 use super::halving::Points;
-use super::neighbours::Neighbours;
 use super::order::Order;
 use super::own::{OwnPlanes, Owners, Verdict, World};
 use super::patches::{Choice, HELD_BACK, MIXED, Patches, UNKNOWN};
@@ -13,6 +12,7 @@ use super::shaft::{
 };
 use super::tree::{Casters, Node};
 use super::{LANES, lanes_from};
+use crate::shared::neighbours::Neighbours;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, u16x32, u32x16};
 
 /// What a cluster reads.

@@ -3,13 +3,13 @@
 use super::MOST_VIEWS;
 use super::cluster::{Counts, Scene, Worker};
 use super::halving::Points;
-use super::neighbours::Neighbours;
 use super::own::World;
 use super::patches::Choice;
 use super::rays::Leaves;
 use super::tree::{Casters, unit_scale};
 use crate::ports;
 use crate::shared::atomic_words::{atomic_zeros, into_words};
+use crate::shared::neighbours::Neighbours;
 use crate::shared::predicate::Corners;
 use crate::shared::segments::mask_words;
 use fearless_simd::{Level, Simd, dispatch};

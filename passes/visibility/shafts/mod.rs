@@ -52,7 +52,6 @@ mod divide;
 mod groups;
 mod halving;
 mod leaf;
-mod neighbours;
 mod order;
 mod own;
 mod patches;
@@ -107,6 +106,7 @@ pub static PASS: Pass = Pass {
         "lu_layout",
         "bvh_nodes",
         "bvh_order",
+        "penumbra_state",
     ],
     params: &[
         ParamSpec {

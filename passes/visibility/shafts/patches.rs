@@ -17,8 +17,8 @@ use super::LANES;
 use super::candidates::Candidates;
 use super::cluster::{Scene, Slot, Worker};
 use super::groups::Range;
-use super::neighbours::NONE;
 use super::shaft::{cross, dot, dot_one, load};
+use crate::shared::neighbours::NONE;
 use crate::shared::predicate::blocks;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16};
 

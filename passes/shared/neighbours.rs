@@ -1,7 +1,7 @@
 //! The triangle across each edge, where there is exactly one and it is wound the same way.
 //!
 //! Corners are the same when their coordinates are. Edges that one triangle has, or three, or two that are wound against each
-//! other, have no triangle across: to a patch they are borders.
+//! other, have no triangle across: they are borders.
 
 use crate::shared::predicate::Corners;
 
@@ -110,6 +110,11 @@ impl Neighbours {
             }
         }
         Self { of }
+    }
+
+    /// All of them, by triangle and edge.
+    pub fn into_rows(self) -> Vec<[u32; 3]> {
+        self.of
     }
 
     /// The triangle across edge `edge` of `triangle`.
