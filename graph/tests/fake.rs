@@ -67,6 +67,7 @@ visibility/half_planes cw list_length,lu,lu_layout,bvh_nodes,bvh_order -
 visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout -
 visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order contact_ulps
 visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order patches,leaves
+visibility/silhouettes c list_length,lu,lu_layout,bvh_nodes,bvh_order -
 bvh_build/ploc c - -
 visibility/multi_shadow_map cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order -
 light_depth/first_surface cw - size,bias

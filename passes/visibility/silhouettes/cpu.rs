@@ -1,0 +1,326 @@
+//! Cells in parallel, view-sample by view-sample.
+
+use super::cell::Cell;
+use super::count::Counters;
+use super::edges::Edges;
+use super::meet::{Met, View};
+use super::own::Admitted;
+use crate::ports;
+use crate::shared::atomic_words::into_words;
+use crate::shared::light_box::LightBox;
+use crate::shared::light_sides::{Sides, sides};
+use crate::shared::predicate::Pyramid;
+use crate::shared::soft::{Pair, Soft};
+use crate::shared::view_planes::{Hidden, Planes, hidden};
+use fearless_simd::{Level, Simd, dispatch};
+use rayon::prelude::*;
+use shadowgraph_core::array::Array;
+use shadowgraph_core::cpu::CpuCx;
+use shadowgraph_core::input;
+use shadowgraph_core::problem::Problem;
+use shadowgraph_core::shared::{BACKGROUND, KEPT, NO_CELL};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
+
+/// View-samples that one task takes at most.
+const TASK: usize = 1024;
+/// Choices of a light sample to count from before a view-sample is left to single tests.
+const CHOICES: usize = 3;
+
+/// What was counted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    /// Casters gathered, by cell.
+    pub gathered: u64,
+    /// (view-sample, caster) that the pass looked at.
+    pub met: u64,
+    /// Those of them that may hide a part of the light.
+    pub near: u64,
+    /// (view-sample, edge) whose jump was added.
+    pub crossing: u64,
+    /// View-samples decided without an edge.
+    pub whole: u64,
+    /// View-samples decided by counting.
+    pub counted: u64,
+    /// View-samples left to single tests.
+    pub left: u64,
+    /// (view-sample, caster) tested singly.
+    pub single: u64,
+    /// (view-sample, light sample) in doubt, and (view-sample, caster, light sample) of single tests.
+    pub exact: u64,
+}
+
+impl Counts {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            gathered: self.gathered + other.gathered,
+            met: self.met + other.met,
+            near: self.near + other.near,
+            crossing: self.crossing + other.crossing,
+            whole: self.whole + other.whole,
+            counted: self.counted + other.counted,
+            left: self.left + other.left,
+            single: self.single + other.single,
+            exact: self.exact + other.exact,
+        }
+    }
+}
+
+/// What one thread keeps.
+struct Worker<'a> {
+    soft: &'a Soft<'a>,
+    edges: &'a Edges,
+    /// Light samples to count from, the best first.
+    choices: &'a [usize],
+    cell: Cell,
+    admitted: Admitted,
+    met: Met,
+    counters: Counters,
+    mask: Vec<u32>,
+    restored: Vec<u32>,
+    rows: Vec<u32>,
+    counts: Counts,
+}
+
+/// Whether nothing about a caster keeps it from having edges.
+fn is_finite(corners: &[[f32; 3]; 3]) -> bool {
+    corners.as_flattened().iter().all(|x| x.is_finite())
+}
+
+/// Masks `[P ceil(L/32)]` on instruction set `level`.
+pub fn masks(soft: &Soft, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) -> (Vec<u32>, Counts) {
+    let words = soft.light.words();
+    let base = |row: usize| match soft.sample_state[row / words] {
+        BACKGROUND | KEPT => 0,
+        _ => u32::MAX,
+    };
+    let masks: Vec<AtomicU32> = (0..soft.position.len() * words)
+        .into_par_iter()
+        .with_min_len(1 << 14)
+        .map(|row| AtomicU32::new(base(row)))
+        .collect();
+    if words == 0 {
+        return (into_words(masks), Counts::default());
+    }
+    let casts = |id: usize| soft.caster_state[id] != 0;
+    let everyone: Vec<u32> = (0..soft.triangles.len()).filter(|id| casts(*id)).map(|id| id as u32).collect();
+    let unlisted: Vec<u32> = (0..soft.position.len() as u32)
+        .filter(|row| soft.sample_state[*row as usize] == KEPT && soft.cell[*row as usize] == NO_CELL)
+        .collect();
+    let edges = Edges::new(soft.triangles, |id| casts(id) && is_finite(&soft.triangles[id]));
+    let choices = choices(&soft.light);
+    let by_cell = soft.listed.chunk_by(|a, b| soft.cell[*a as usize] == soft.cell[*b as usize]);
+    let tasks: Vec<(&[u32], bool)> = by_cell
+        .flat_map(|rows| rows.chunks(TASK))
+        .map(|rows| (rows, true))
+        .chain(unlisted.chunks(TASK).map(|rows| (rows, false)))
+        .collect();
+    let (done, total) = (AtomicU64::new(0), (soft.listed.len() + unlisted.len()) as u64);
+    let counts = tasks
+        .par_iter()
+        .map_init(
+            || Worker::new(soft, &edges, &choices),
+            |worker, (rows, listed)| {
+                worker.counts = Counts::default();
+                let casters = if *listed { soft.casters_of(rows[0] as usize) } else { &everyone };
+                dispatch!(level, simd => worker.cell(simd, rows, casters, &masks));
+                let count = rows.len() as u64;
+                progress(done.fetch_add(count, Relaxed) + count, total);
+                worker.counts
+            },
+        )
+        .reduce(Counts::default, Counts::plus);
+    (into_words(masks), counts)
+}
+
+/// The light sample nearest the middle, and others.
+fn choices(light: &LightBox) -> Vec<usize> {
+    let distance = |at: &usize| {
+        let sample = light.samples[*at];
+        (0..3).map(|k| (f64::from(sample[k]) - f64::from(light.middle[k])).powi(2)).sum::<f64>()
+    };
+    let count = light.samples.len();
+    let nearest = (0..count).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+    (0..CHOICES.min(count)).map(|k| (nearest + k * count / CHOICES) % count).collect()
+}
+
+impl<'a> Worker<'a> {
+    fn new(soft: &'a Soft<'a>, edges: &'a Edges, choices: &'a [usize]) -> Self {
+        let words = soft.light.words();
+        Self {
+            soft,
+            edges,
+            choices,
+            cell: Cell::new(edges.ends.len()),
+            admitted: Admitted::new(soft),
+            met: Met::default(),
+            counters: Counters::default(),
+            mask: vec![0; words],
+            restored: vec![0; words],
+            rows: Vec::new(),
+            counts: Counts::default(),
+        }
+    }
+
+    /// The view-samples `rows` of a cell with `casters`.
+    #[inline(always)]
+    fn cell<S: Simd>(&mut self, simd: S, rows: &[u32], casters: &[u32], masks: &[AtomicU32]) {
+        let soft = self.soft;
+        if casters.is_empty() {
+            return;
+        }
+        self.rows.clear();
+        self.rows.extend_from_slice(rows);
+        // View-samples of one triangle together: its plane lets the same casters through.
+        self.rows.sort_unstable_by_key(|row| (soft.triangle[*row as usize], *row));
+        let views: Vec<[f32; 3]> = self.rows.iter().map(|row| soft.position[*row as usize]).collect();
+        self.cell.turn_to(&views, &soft.light, soft.triangles, self.edges, casters);
+        self.counts.gathered += self.cell.slots.len() as u64;
+        self.admitted.forget();
+        for at in 0..self.rows.len() {
+            let row = self.rows[at] as usize;
+            self.mask.fill(0);
+            self.admitted.turn_to(simd, soft, &self.cell, soft.triangle[row]);
+            self.row(simd, row);
+            self.restored.fill(0);
+            soft.light.restore(&self.mask, &mut self.restored);
+            let words = self.mask.len();
+            for (word, mask) in self.restored.iter().enumerate() {
+                // Each view-sample is listed once, so no two threads meet here.
+                masks[row * words + word].store(*mask, Relaxed);
+            }
+        }
+    }
+
+    /// Fills the mask of view-sample `row`.
+    #[inline(always)]
+    fn row<S: Simd>(&mut self, simd: S, row: usize) {
+        let soft = self.soft;
+        self.counts.met += self.cell.slots.len() as u64;
+        let position = soft.position[row];
+        let mut decided = self.cell.slots.is_empty();
+        for &chosen in self.choices {
+            if decided {
+                break;
+            }
+            let view = View::new(&self.cell, soft, position, chosen);
+            self.met.clear(self.cell.edges.len());
+            if self.met.meet(simd, soft, &self.cell, &self.admitted.live, &view) {
+                self.fill();
+                self.counts.whole += 1;
+                return;
+            }
+            if self.met.near.is_empty() {
+                self.counts.whole += 1;
+                decided = true;
+                break;
+            }
+            let before = self.counters.crossing;
+            let Self { counters, met, cell, edges, .. } = self;
+            decided = counters.count(simd, soft, cell, edges, met, position, chosen).is_ok();
+            if decided {
+                self.counts.near += self.met.near.len() as u64;
+                let crossing = self.counters.crossing - before;
+                self.counts.crossing += crossing;
+                *(if crossing == 0 { &mut self.counts.whole } else { &mut self.counts.counted }) += 1;
+                for word in 0..self.mask.len() {
+                    let doubts = self.counters.doubts[word] & soft.light.used(word);
+                    let blocked = self.counters.blocked(word) & soft.light.used(word) & !doubts;
+                    self.mask[word] = blocked | self.decide(position, word, doubts);
+                }
+            }
+        }
+        if !decided {
+            self.counts.left += 1;
+            for at in 0..self.met.near.len() {
+                let triangle = self.cell.slots[self.met.near[at] as usize].triangle;
+                self.single(simd, row, triangle);
+            }
+        }
+        for at in 0..self.admitted.partly.len() {
+            let triangle = self.cell.slots[self.admitted.partly[at] as usize].triangle;
+            self.single(simd, row, triangle);
+        }
+        for at in 0..self.cell.singles.len() {
+            self.single(simd, row, self.cell.singles[at]);
+        }
+    }
+
+    fn fill(&mut self) {
+        for word in 0..self.mask.len() {
+            self.mask[word] = self.soft.light.used(word);
+        }
+    }
+
+    /// The light samples `doubts` of `word` that a caster of those met hides.
+    fn decide(&mut self, position: [f32; 3], word: usize, mut doubts: u32) -> u32 {
+        let mut hidden = 0;
+        while doubts != 0 {
+            let bit = doubts.trailing_zeros();
+            doubts &= doubts - 1;
+            self.counts.exact += 1;
+            let light = self.soft.light.samples[32 * word + bit as usize];
+            let hides = |slot: &u32| {
+                let triangle = self.cell.slots[*slot as usize].triangle;
+                Pyramid::new(&self.soft.triangles[triangle as usize], light).covers(position)
+            };
+            hidden |= u32::from(self.met.near.iter().any(hides)) << bit;
+        }
+        hidden
+    }
+
+    /// Adds what `caster` alone hides from `row`.
+    #[inline(always)]
+    fn single<S: Simd>(&mut self, simd: S, row: usize, caster: u32) {
+        let soft = self.soft;
+        if caster == soft.triangle[row] {
+            return;
+        }
+        self.counts.single += 1;
+        let corners = &soft.triangles[caster as usize];
+        let mut planes = Planes::EMPTY;
+        let light = &soft.light;
+        let mut ready = match hidden(corners, soft.position[row], light, &mut planes) {
+            Hidden::Nothing => return,
+            Hidden::All => None,
+            Hidden::Within => Some(Sides::new(&planes, light)),
+        };
+        let mut pair = Pair { caster: corners, position: soft.position[row], light, exact: 0 };
+        let mut on = None;
+        for word in 0..self.mask.len() {
+            let open = light.used(word) & !self.mask[word];
+            if open == 0 {
+                continue;
+            }
+            let mut bits = match &mut ready {
+                Some(ready) => {
+                    let [inside, doubtful] = sides(simd, ready, light, word);
+                    inside | pair.decide(word, doubtful & open)
+                }
+                None => open,
+            };
+            if bits & open != 0 {
+                let on = *on.get_or_insert_with(|| self.admitted.sides.corners_on(soft, corners));
+                bits &= self.admitted.sides.admitted(on, word);
+                self.mask[word] |= bits & open;
+            }
+        }
+        self.counts.exact += pair.exact;
+    }
+}
+
+/// The CPU function.
+pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
+    let soft = Soft::new(cx, LightBox::clustered(cx.input(input::LIGHT_SAMPLES.name).as_vec3()));
+    let (mask, counts) = masks(&soft, Level::new(), cx.progress());
+    cx.put(ports::MASK.name, Array::u32([soft.position.len(), soft.light.words()], mask));
+    cx.count("gathered", counts.gathered);
+    cx.count("met", counts.met);
+    cx.count("near", counts.near);
+    cx.count("crossing", counts.crossing);
+    cx.count("whole_rows", counts.whole);
+    cx.count("counted_rows", counts.counted);
+    cx.count("left_rows", counts.left);
+    cx.count("single", counts.single);
+    cx.count("exact", counts.exact);
+    Ok(())
+}

@@ -1,0 +1,215 @@
+//! One view-sample against the casters of its cell, sixteen at a time: which of them may hide a part of the light, which hide all of
+//! it, how many stand before the chosen light sample, and where their number changes.
+//!
+//! With a_k the corners from the view-sample, e_k = a_k+1 - a_k, n_k = a_k x e_k and w = N . a_0, a light sample at s is in the
+//! pyramid of the caster when w (n_k . s) >= 0 for k = 0, 1, 2, as in [`crate::shared::predicate`]. Over the ball of radius R about
+//! the light's middle m, n_k . s is within |n_k| R of n_k . m.
+//!
+//! Bounds, in cell units, with u = 2^-24, H the distance in which corners and view-samples are and E the caster's size, lengths as sums of
+//! absolute coordinates: a_k errs by 4 u H, e_k by 4 u E, n_k by 16 u H E with what the product rounds, n_k . s by 32 u H E |s|, and
+//! the ball's range by as much again for a ball that does not hold the view-sample. w errs by 16 u |N| H.
+
+use super::LANES;
+use super::cell::{Block, Cell};
+use crate::shared::predicate;
+use crate::shared::soft::Soft;
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16};
+
+/// A view-sample in its cell's unit.
+pub struct View {
+    /// World space.
+    pub position: [f32; 3],
+    /// From the cell's origin.
+    place: [f32; 3],
+    /// From the view-sample to the light's middle.
+    middle: [f32; 3],
+    /// From the view-sample to the chosen light sample.
+    chosen: [f32; 3],
+    radius_square: f32,
+    middle_reach: f32,
+    chosen_reach: f32,
+}
+
+impl View {
+    /// Of `position`, with light sample `chosen`.
+    pub fn new(cell: &Cell, soft: &Soft, position: [f32; 3], chosen: usize) -> Self {
+        let to = |point: [f32; 3]| {
+            let along = |k: usize| ((f64::from(point[k]) - f64::from(position[k])) * cell.scale) as f32;
+            [along(0), along(1), along(2)]
+        };
+        let size = |v: [f32; 3]| v[0].abs() + v[1].abs() + v[2].abs();
+        let (middle, chosen) = (to(soft.light.middle), to(soft.light.samples[chosen]));
+        let radius = (soft.light.radius * cell.scale) as f32;
+        Self {
+            position,
+            place: cell.local(position),
+            middle,
+            chosen,
+            radius_square: radius * radius * (1.0 + 1e-4),
+            middle_reach: size(middle) + radius,
+            chosen_reach: size(chosen),
+        }
+    }
+}
+
+/// What a view-sample has met.
+#[derive(Default)]
+pub struct Met {
+    /// By edge of the cell: its jump, where it is not zero or is `touched`.
+    pub jump: Vec<i32>,
+    /// Edges, some more than once, that a caster of `near` may have across the light.
+    pub touched: Vec<u32>,
+    /// Slots of casters that may hide a part of the light.
+    pub near: Vec<u32>,
+    /// Slots of those of which it is not sure whether they hide the chosen light sample.
+    pub doubtful: Vec<u32>,
+    /// Casters that surely hide the chosen light sample.
+    pub count: u32,
+}
+
+/// Sixteen casters.
+struct Answer {
+    /// w is surely above zero, surely below zero.
+    facing: [u16; 2],
+    /// None of the light is in the pyramid.
+    beside: u16,
+    /// By edge: its plane may cut the light.
+    cut: [u16; 3],
+    /// The chosen light sample is surely in the pyramid, surely outside.
+    chosen: [u16; 2],
+}
+
+#[inline(always)]
+fn cross<S: Simd>(a: [f32x16<S>; 3], b: [f32x16<S>; 3]) -> [f32x16<S>; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+fn dot<S: Simd>(a: [f32x16<S>; 3], b: [f32; 3]) -> f32x16<S> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn bits<S: Simd>(mask: mask32x16<S>) -> u16 {
+    mask.to_bitmask() as u16
+}
+
+/// What each caster of `block` does to `view`.
+#[inline(always)]
+fn answer<S: Simd>(simd: S, block: &Block, view: &View) -> Answer {
+    let row = |row: &[f32; LANES]| f32x16::from_slice(simd, row);
+    let corner = [
+        row(&block.corner[0]) - view.place[0],
+        row(&block.corner[1]) - view.place[1],
+        row(&block.corner[2]) - view.place[2],
+    ];
+    let first = [row(&block.first[0]), row(&block.first[1]), row(&block.first[2])];
+    let second = [row(&block.second[0]), row(&block.second[1]), row(&block.second[2])];
+    let normal = [row(&block.normal[0]), row(&block.normal[1]), row(&block.normal[2])];
+    let w = normal[0] * corner[0] + normal[1] * corner[1] + normal[2] * corner[2];
+    let facing_slack = row(&block.facing_slack);
+    let is_above = w.simd_gt(facing_slack);
+    let facing = [bits(is_above), bits(w.simd_lt(-facing_slack))];
+    let turn = is_above.select(f32x16::splat(simd, 1.0), f32x16::splat(simd, -1.0));
+    let slack = row(&block.slack);
+    let (middle_slack, chosen_slack) = (slack * view.middle_reach, slack * view.chosen_reach);
+    let next = [corner[0] + first[0], corner[1] + first[1], corner[2] + first[2]];
+    let last = [next[0] + second[0], next[1] + second[1], next[2] + second[2]];
+    let third = [-(first[0] + second[0]), -(first[1] + second[1]), -(first[2] + second[2])];
+    let zero = f32x16::splat(simd, 0.0);
+    let mut answer = Answer { facing, beside: 0, cut: [0; 3], chosen: [u16::MAX, 0] };
+    macro_rules! edge {
+        ($k:expr, $from:expr, $line:expr) => {
+            let plane = cross($from, $line);
+            let value = dot(plane, view.middle) * turn;
+            let chosen = dot(plane, view.chosen) * turn;
+            let square = plane[0] * plane[0] + plane[1] * plane[1] + plane[2] * plane[2];
+            let far = (value.abs() - middle_slack).max(zero);
+            let apart = bits((far * far).simd_gt(square * view.radius_square));
+            answer.cut[$k] = !apart;
+            answer.beside |= apart & bits(value.simd_lt(zero));
+            answer.chosen[0] &= bits(chosen.simd_gt(chosen_slack));
+            answer.chosen[1] |= bits(chosen.simd_lt(-chosen_slack));
+        };
+    }
+    edge!(0, corner, first);
+    edge!(1, next, second);
+    edge!(2, last, third);
+    answer
+}
+
+impl Met {
+    /// Forgets the last view-sample; `edges` are in the cell.
+    pub fn clear(&mut self, edges: usize) {
+        for edge in self.touched.drain(..) {
+            self.jump[edge as usize] = 0;
+        }
+        if self.jump.len() < edges {
+            self.jump.resize(edges, 0);
+        }
+        self.near.clear();
+        self.doubtful.clear();
+        self.count = 0;
+    }
+
+    /// Meets the casters of `cell` that are `live`; whether one of them hides the whole light.
+    #[inline(always)]
+    pub fn meet<S: Simd>(&mut self, simd: S, soft: &Soft, cell: &Cell, live: &[u16], view: &View) -> bool {
+        for (at, live) in live.iter().enumerate() {
+            if *live == 0 {
+                continue;
+            }
+            let answer = simd.vectorize(
+                #[inline(always)]
+                || answer(simd, &cell.blocks[at], view),
+            );
+            let sure = answer.facing[0] | answer.facing[1];
+            let mut near = live & sure & !answer.beside;
+            let [cut_0, cut_1, cut_2] = answer.cut;
+            if near & !cut_0 & !cut_1 & !cut_2 != 0 {
+                return true;
+            }
+            self.count += (near & answer.chosen[0]).count_ones();
+            let mut doubtful = near & !answer.chosen[0] & !answer.chosen[1];
+            while doubtful != 0 {
+                self.doubtful.push((LANES * at) as u32 + doubtful.trailing_zeros());
+                doubtful &= doubtful - 1;
+            }
+            while near != 0 {
+                let lane = near.trailing_zeros();
+                near &= near - 1;
+                let facing = if answer.facing[0] >> lane & 1 == 1 { 1 } else { -1 };
+                let cut = [cut_0 >> lane & 1 == 1, cut_1 >> lane & 1 == 1, cut_2 >> lane & 1 == 1];
+                self.enter(cell, (LANES * at) as u32 + lane, facing, cut);
+            }
+            let mut flat = live & !sure;
+            while flat != 0 {
+                let slot = (LANES * at) as u32 + flat.trailing_zeros();
+                flat &= flat - 1;
+                let caster = &soft.triangles[cell.slots[slot as usize].triangle as usize];
+                match predicate::side(caster, view.position) {
+                    0 => {}
+                    facing => {
+                        self.doubtful.push(slot);
+                        self.enter(cell, slot, facing, [true; 3]);
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// A caster of `facing` with the edges `cut` across the light.
+    #[inline(always)]
+    fn enter(&mut self, cell: &Cell, slot: u32, facing: i32, cut: [bool; 3]) {
+        self.near.push(slot);
+        let edges = cell.slots[slot as usize].edges;
+        for k in 0..3 {
+            if cut[k] {
+                let edge = edges[k] / 2;
+                self.jump[edge as usize] += if edges[k] % 2 == 0 { facing } else { -facing };
+                self.touched.push(edge);
+            }
+        }
+    }
+}
