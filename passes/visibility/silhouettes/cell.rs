@@ -61,6 +61,8 @@ pub struct Cell {
     pub scale: f64,
     /// Largest |x| + |y| + |z| of a view-sample.
     pub views_reach: f32,
+    /// Least and largest coordinates of the view-samples.
+    pub views: [[f32; 3]; 2],
     /// Casters, sixteen to a block.
     pub blocks: Vec<Block>,
     /// By caster.
@@ -187,12 +189,20 @@ impl Cell {
             origin: [0.0; 3],
             scale: 1.0,
             views_reach: 0.0,
+            views: [[0.0; 3]; 2],
             blocks: Vec::new(),
             slots: Vec::new(),
             singles: Vec::new(),
             edges: Vec::new(),
             number: vec![u32::MAX; edges],
         }
+    }
+
+    /// Lanes of block `at` that hold a caster.
+    #[inline(always)]
+    pub fn lanes(&self, at: usize) -> u16 {
+        let count = self.slots.len() - LANES * at;
+        if count >= LANES { u16::MAX } else { (1 << count) - 1 }
     }
 
     /// A point from the origin, in cell units.
@@ -227,6 +237,10 @@ impl Cell {
         let views_reach = offsets.iter().map(|offset| size(*offset) * self.scale).fold(0.0, f64::max) * (1.0 + 1e-6);
         let shaft = shaft.filter(|_| views_reach < LARGEST);
         self.views_reach = views_reach as f32;
+        let local = |view: &[f32; 3]| self.local(*view);
+        self.views = views.iter().map(local).fold([[f32::MAX; 3], [f32::MIN; 3]], |[low, high], p| {
+            [[0, 1, 2].map(|k| low[k].min(p[k])), [0, 1, 2].map(|k| high[k].max(p[k]))]
+        });
         for &triangle in casters {
             let corners = &triangles[triangle as usize];
             let Some(shaft) = shaft.as_ref().filter(|_| corners.as_flattened().iter().all(|x| x.is_finite())) else {

@@ -8,6 +8,7 @@
 //!
 //! Counters are bits of binary numbers, a word of light samples at a time; what overflows comes back, for no count is negative in the end.
 
+use super::borders::strictly;
 use super::cell::Cell;
 use super::edges::Edges;
 use super::meet::Met;
@@ -73,14 +74,18 @@ impl Counters {
         met: &mut Met,
         position: [f32; 3],
         chosen: usize,
+        joined: i32,
     ) -> Result<(), BadChoice> {
         let light = &soft.light;
-        let before = met.count + doubtful(soft, cell, met, position, light.samples[chosen])?;
+        let single = met.count + doubtful(soft, cell, met, position, light.samples[chosen])?;
+        let before = single.wrapping_add_signed(joined);
         self.words = light.words();
         self.doubts.clear();
         self.doubts.resize(self.words, 0);
         self.planes.clear();
-        let bits = u32::BITS - (met.near.len() as u32).leading_zeros();
+        // No counter can end higher.
+        let jumps = met.touched.iter().map(|edge| met.jump[*edge as usize].unsigned_abs()).sum::<u32>();
+        let bits = u32::BITS - (before + jumps).leading_zeros();
         for bit in 0..bits {
             let set = if before >> bit & 1 == 1 { u32::MAX } else { 0 };
             self.planes.extend((0..self.words).map(|_| set));
@@ -163,14 +168,8 @@ impl Counters {
 fn doubtful(soft: &Soft, cell: &Cell, met: &Met, position: [f32; 3], light: [f32; 3]) -> Result<u32, BadChoice> {
     let mut count = 0;
     for slot in &met.doubtful {
-        let [a, b, c] = soft.triangles[cell.slots[*slot as usize].triangle as usize];
-        let w = predicate::side(&[a, b, c], position);
-        let signs = [[a, b], [b, c], [c, a]].map(|[from, to]| w * predicate::side(&[light, from, to], position));
-        match signs.into_iter().min() {
-            Some(1) => count += 1,
-            Some(0) => return Err(BadChoice),
-            _ => {}
-        }
+        let caster = &soft.triangles[cell.slots[*slot as usize].triangle as usize];
+        count += u32::from(strictly(caster, position, light).ok_or(BadChoice)?);
     }
     Ok(count)
 }

@@ -1,10 +1,12 @@
 //! Cells in parallel, view-sample by view-sample.
 
+use super::LANES;
+use super::borders::Borders;
 use super::cell::Cell;
 use super::count::Counters;
 use super::edges::Edges;
 use super::meet::{Met, View};
-use super::own::Admitted;
+use super::own::Run;
 use crate::ports;
 use crate::shared::atomic_words::into_words;
 use crate::shared::light_box::LightBox;
@@ -31,8 +33,10 @@ const CHOICES: usize = 3;
 pub struct Counts {
     /// Casters gathered, by cell.
     pub gathered: u64,
-    /// (view-sample, caster) that the pass looked at.
-    pub met: u64,
+    /// Borders of joined casters, by cell.
+    pub borders: u64,
+    /// (view-sample, kind of light sample) for which joined casters were counted one by one.
+    pub recounted: u64,
     /// Those of them that may hide a part of the light.
     pub near: u64,
     /// (view-sample, edge) whose jump was added.
@@ -53,7 +57,8 @@ impl Counts {
     fn plus(self, other: Self) -> Self {
         Self {
             gathered: self.gathered + other.gathered,
-            met: self.met + other.met,
+            borders: self.borders + other.borders,
+            recounted: self.recounted + other.recounted,
             near: self.near + other.near,
             crossing: self.crossing + other.crossing,
             whole: self.whole + other.whole,
@@ -72,7 +77,11 @@ struct Worker<'a> {
     /// Light samples to count from, the best first.
     choices: &'a [usize],
     cell: Cell,
-    admitted: Admitted,
+    /// By own triangle of the cell.
+    runs: Vec<Run>,
+    /// By block: casters that every one of them lets through.
+    always: Vec<u16>,
+    borders: Borders,
     met: Met,
     counters: Counters,
     mask: Vec<u32>,
@@ -151,7 +160,9 @@ impl<'a> Worker<'a> {
             edges,
             choices,
             cell: Cell::new(edges.ends.len()),
-            admitted: Admitted::new(soft),
+            runs: Vec::new(),
+            always: Vec::new(),
+            borders: Borders::default(),
             met: Met::default(),
             counters: Counters::default(),
             mask: vec![0; words],
@@ -175,12 +186,15 @@ impl<'a> Worker<'a> {
         let views: Vec<[f32; 3]> = self.rows.iter().map(|row| soft.position[*row as usize]).collect();
         self.cell.turn_to(&views, &soft.light, soft.triangles, self.edges, casters);
         self.counts.gathered += self.cell.slots.len() as u64;
-        self.admitted.forget();
+        self.prepare(simd);
+        let (mut run, mut own) = (0, soft.triangle[self.rows[0] as usize]);
         for at in 0..self.rows.len() {
             let row = self.rows[at] as usize;
+            if soft.triangle[row] != own {
+                (run, own) = (run + 1, soft.triangle[row]);
+            }
             self.mask.fill(0);
-            self.admitted.turn_to(simd, soft, &self.cell, soft.triangle[row]);
-            self.row(simd, row);
+            self.row(simd, row, run);
             self.restored.fill(0);
             soft.light.restore(&self.mask, &mut self.restored);
             let words = self.mask.len();
@@ -191,63 +205,92 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Fills the mask of view-sample `row`.
+    /// What each own triangle lets through, and what is joined.
     #[inline(always)]
-    fn row<S: Simd>(&mut self, simd: S, row: usize) {
+    fn prepare<S: Simd>(&mut self, simd: S) {
         let soft = self.soft;
-        self.counts.met += self.cell.slots.len() as u64;
-        let position = soft.position[row];
-        let mut decided = self.cell.slots.is_empty();
-        for &chosen in self.choices {
-            if decided {
-                break;
+        self.always.clear();
+        self.always.extend((0..self.cell.blocks.len()).map(|at| self.cell.lanes(at)));
+        let mut count = 0;
+        for at in 0..self.rows.len() {
+            let own = soft.triangle[self.rows[at] as usize];
+            if at > 0 && own == soft.triangle[self.rows[at - 1] as usize] {
+                continue;
             }
-            let view = View::new(&self.cell, soft, position, chosen);
-            self.met.clear(self.cell.edges.len());
-            if self.met.meet(simd, soft, &self.cell, &self.admitted.live, &view) {
-                self.fill();
-                self.counts.whole += 1;
-                return;
+            if self.runs.len() == count {
+                self.runs.push(Run::new(soft));
             }
-            if self.met.near.is_empty() {
-                self.counts.whole += 1;
-                decided = true;
-                break;
-            }
-            let before = self.counters.crossing;
-            let Self { counters, met, cell, edges, .. } = self;
-            decided = counters.count(simd, soft, cell, edges, met, position, chosen).is_ok();
-            if decided {
-                self.counts.near += self.met.near.len() as u64;
-                let crossing = self.counters.crossing - before;
-                self.counts.crossing += crossing;
-                *(if crossing == 0 { &mut self.counts.whole } else { &mut self.counts.counted }) += 1;
-                for word in 0..self.mask.len() {
-                    let doubts = self.counters.doubts[word] & soft.light.used(word);
-                    let blocked = self.counters.blocked(word) & soft.light.used(word) & !doubts;
-                    self.mask[word] = blocked | self.decide(position, word, doubts);
-                }
+            let run = &mut self.runs[count];
+            count += 1;
+            run.turn_to(simd, soft, &self.cell, own);
+            for kind in 0..run.kinds() {
+                self.always.iter_mut().zip(run.live(kind)).for_each(|(always, live)| *always &= live);
             }
         }
-        if !decided {
-            self.counts.left += 1;
-            for at in 0..self.met.near.len() {
-                let triangle = self.cell.slots[self.met.near[at] as usize].triangle;
-                self.single(simd, row, triangle);
+        self.borders.join(simd, soft, &self.cell, self.edges, &self.always, self.choices[0]);
+        self.counts.borders += self.borders.len() as u64;
+    }
+
+    /// Fills the mask of view-sample `row`, whose own triangle is the one of `run`.
+    #[inline(always)]
+    fn row<S: Simd>(&mut self, simd: S, row: usize, run: usize) {
+        if !self.cell.slots.is_empty() {
+            for kind in 0..self.runs[run].kinds() {
+                self.kind(simd, row, run, kind);
             }
-        }
-        for at in 0..self.admitted.partly.len() {
-            let triangle = self.cell.slots[self.admitted.partly[at] as usize].triangle;
-            self.single(simd, row, triangle);
         }
         for at in 0..self.cell.singles.len() {
-            self.single(simd, row, self.cell.singles[at]);
+            self.single(simd, row, run, self.cell.singles[at]);
         }
     }
 
-    fn fill(&mut self) {
-        for word in 0..self.mask.len() {
-            self.mask[word] = self.soft.light.used(word);
+    /// Fills the mask of `row` for the light samples of `kind`.
+    #[inline(always)]
+    fn kind<S: Simd>(&mut self, simd: S, row: usize, run: usize, kind: usize) {
+        let soft = self.soft;
+        let position = soft.position[row];
+        for &chosen in self.choices {
+            let view = View::new(&self.cell, soft, position, chosen);
+            let live = self.runs[run].live(kind);
+            self.met.clear(self.cell.edges.len());
+            if self.met.meet(simd, soft, &self.cell, live, &self.borders.joined, &view) {
+                self.counts.whole += 1;
+                for word in 0..self.mask.len() {
+                    self.mask[word] |= self.runs[run].allowed(soft, kind, word);
+                }
+                return;
+            }
+            self.counts.near += self.met.near.len() as u64;
+            let mut joined = Some(0);
+            if self.borders.is_used {
+                joined = self.borders.meet(simd, &view, &mut self.met);
+                if joined.is_none() || chosen != self.choices[0] {
+                    self.counts.recounted += 1;
+                    joined = self.borders.count_at(simd, soft, &self.cell, &view, chosen);
+                }
+            }
+            let Some(joined) = joined else { continue };
+            let before = self.counters.crossing;
+            let Self { counters, met, cell, edges, .. } = self;
+            if counters.count(simd, soft, cell, edges, met, position, chosen, joined).is_err() {
+                continue;
+            }
+            let crossing = self.counters.crossing - before;
+            self.counts.crossing += crossing;
+            *(if crossing == 0 { &mut self.counts.whole } else { &mut self.counts.counted }) += 1;
+            for word in 0..self.mask.len() {
+                let allowed = self.runs[run].allowed(soft, kind, word);
+                let doubts = self.counters.doubts[word] & allowed;
+                let blocked = self.counters.blocked(word) & allowed & !doubts;
+                self.mask[word] |= blocked | self.decide(position, word, doubts);
+            }
+            return;
+        }
+        self.counts.left += 1;
+        for at in 0..self.cell.slots.len() {
+            if self.runs[run].live(kind)[at / LANES] >> (at % LANES) & 1 == 1 {
+                self.single(simd, row, run, self.cell.slots[at].triangle);
+            }
         }
     }
 
@@ -263,14 +306,16 @@ impl<'a> Worker<'a> {
                 let triangle = self.cell.slots[*slot as usize].triangle;
                 Pyramid::new(&self.soft.triangles[triangle as usize], light).covers(position)
             };
-            hidden |= u32::from(self.met.near.iter().any(hides)) << bit;
+            let joined = (0..self.cell.slots.len() as u32)
+                .filter(|slot| self.borders.joined[*slot as usize / LANES] >> (slot % LANES as u32) & 1 == 1);
+            hidden |= u32::from(self.met.near.iter().any(hides) || joined.into_iter().any(|slot| hides(&slot))) << bit;
         }
         hidden
     }
 
     /// Adds what `caster` alone hides from `row`.
     #[inline(always)]
-    fn single<S: Simd>(&mut self, simd: S, row: usize, caster: u32) {
+    fn single<S: Simd>(&mut self, simd: S, row: usize, run: usize, caster: u32) {
         let soft = self.soft;
         if caster == soft.triangle[row] {
             return;
@@ -299,8 +344,8 @@ impl<'a> Worker<'a> {
                 None => open,
             };
             if bits & open != 0 {
-                let on = *on.get_or_insert_with(|| self.admitted.sides.corners_on(soft, corners));
-                bits &= self.admitted.sides.admitted(on, word);
+                let on = *on.get_or_insert_with(|| self.runs[run].sides.corners_on(soft, corners));
+                bits &= self.runs[run].sides.admitted(on, word);
                 self.mask[word] |= bits & open;
             }
         }
@@ -314,7 +359,8 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let (mask, counts) = masks(&soft, Level::new(), cx.progress());
     cx.put(ports::MASK.name, Array::u32([soft.position.len(), soft.light.words()], mask));
     cx.count("gathered", counts.gathered);
-    cx.count("met", counts.met);
+    cx.count("borders", counts.borders);
+    cx.count("recounted", counts.recounted);
     cx.count("near", counts.near);
     cx.count("crossing", counts.crossing);
     cx.count("whole_rows", counts.whole);

@@ -13,21 +13,27 @@ use super::LANES;
 use super::cell::{Block, Cell};
 use crate::shared::predicate;
 use crate::shared::soft::Soft;
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16};
 
 /// A view-sample in its cell's unit.
 pub struct View {
     /// World space.
     pub position: [f32; 3],
     /// From the cell's origin.
-    place: [f32; 3],
+    pub place: [f32; 3],
     /// From the view-sample to the light's middle.
-    middle: [f32; 3],
+    pub middle: [f32; 3],
     /// From the view-sample to the chosen light sample.
-    chosen: [f32; 3],
-    radius_square: f32,
-    middle_reach: f32,
-    chosen_reach: f32,
+    pub chosen: [f32; 3],
+    /// Along `middle`, of length one but for rounding.
+    axis: [f32; 3],
+    /// A little more than the tangent of half the angle in which the light's ball is seen.
+    slope: f32,
+    pub radius_square: f32,
+    pub middle_reach: f32,
+    pub chosen_reach: f32,
+    /// Bound on its distance from the origin.
+    reach: f32,
 }
 
 impl View {
@@ -40,11 +46,15 @@ impl View {
         let size = |v: [f32; 3]| v[0].abs() + v[1].abs() + v[2].abs();
         let (middle, chosen) = (to(soft.light.middle), to(soft.light.samples[chosen]));
         let radius = (soft.light.radius * cell.scale) as f32;
+        let length = (middle[0] * middle[0] + middle[1] * middle[1] + middle[2] * middle[2]).sqrt();
         Self {
             position,
             place: cell.local(position),
             middle,
             chosen,
+            axis: middle.map(|x| x / length),
+            slope: 1.001 * radius / (length * length - radius * radius).max(0.0).sqrt() + 1e-5,
+            reach: cell.views_reach,
             radius_square: radius * radius * (1.0 + 1e-4),
             middle_reach: size(middle) + radius,
             chosen_reach: size(chosen),
@@ -68,35 +78,67 @@ pub struct Met {
 }
 
 /// Sixteen casters.
-struct Answer {
+pub struct Answer {
     /// w is surely above zero, surely below zero.
-    facing: [u16; 2],
+    pub facing: [u16; 2],
+    /// Wholly beside the light's cone.
+    pub beyond: u16,
     /// None of the light is in the pyramid.
-    beside: u16,
+    pub beside: u16,
     /// By edge: its plane may cut the light.
     cut: [u16; 3],
     /// The chosen light sample is surely in the pyramid, surely outside.
-    chosen: [u16; 2],
+    pub chosen: [u16; 2],
 }
 
 #[inline(always)]
-fn cross<S: Simd>(a: [f32x16<S>; 3], b: [f32x16<S>; 3]) -> [f32x16<S>; 3] {
+pub fn cross<S: Simd>(a: [f32x16<S>; 3], b: [f32x16<S>; 3]) -> [f32x16<S>; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]
-fn dot<S: Simd>(a: [f32x16<S>; 3], b: [f32; 3]) -> f32x16<S> {
+pub fn dot<S: Simd>(a: [f32x16<S>; 3], b: [f32; 3]) -> f32x16<S> {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-fn bits<S: Simd>(mask: mask32x16<S>) -> u16 {
+pub fn bits<S: Simd>(mask: mask32x16<S>) -> u16 {
     mask.to_bitmask() as u16
 }
 
-/// What each caster of `block` does to `view`.
+/// Which of the point sets `sets`, each a point and steps to the next, are surely wholly beside the cone to the light: beyond the plane that
+/// touches its ball where it is nearest to the first point. `reach` bounds their distance from the cell's origin.
 #[inline(always)]
-fn answer<S: Simd>(simd: S, block: &Block, view: &View) -> Answer {
+pub fn beside<S: Simd, const N: usize>(
+    simd: S,
+    view: &View,
+    from: [f32x16<S>; 3],
+    steps: [[f32x16<S>; 3]; N],
+    reach: f32x16<S>,
+) -> u16 {
+    let [x, y, z] = view.axis.map(|x| f32x16::splat(simd, x));
+    let along = dot(from, view.axis);
+    let square = from[0] * from[0] + from[1] * from[1] + from[2] * from[2];
+    let across = (square - along * along).max(f32x16::splat(simd, 0.0)).sqrt();
+    let back = along + across * view.slope;
+    let normal = [from[0] - x * back, from[1] - y * back, from[2] - z * back];
+    // The light's ball is on the other side: whatever rounding did to the normal.
+    let size = normal[0].abs() + normal[1].abs() + normal[2].abs();
+    let light = dot(normal, view.middle) + size * (1e-6 * view.middle_reach);
+    let length = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+    let is_light_behind = light.simd_lt(0.0) & (light * light).simd_gt(length * view.radius_square);
+    let mut height = from[0] * normal[0] + from[1] * normal[1] + from[2] * normal[2];
+    let mut least = height;
+    for step in steps {
+        height = height + (step[0] * normal[0] + step[1] * normal[1] + step[2] * normal[2]);
+        least = least.min(height);
+    }
+    bits(is_light_behind & least.simd_gt((reach + view.reach) * size * 1e-6))
+}
+
+/// What each caster of `block` does to `view`, if any of `live` is not beside the light's cone.
+#[inline(always)]
+pub fn answer<S: Simd>(simd: S, block: &Block, live: u16, view: &View) -> Option<Answer> {
     let row = |row: &[f32; LANES]| f32x16::from_slice(simd, row);
     let corner = [
         row(&block.corner[0]) - view.place[0],
@@ -105,6 +147,10 @@ fn answer<S: Simd>(simd: S, block: &Block, view: &View) -> Answer {
     ];
     let first = [row(&block.first[0]), row(&block.first[1]), row(&block.first[2])];
     let second = [row(&block.second[0]), row(&block.second[1]), row(&block.second[2])];
+    let beside = beside(simd, view, corner, [first, second], row(&block.reach));
+    if live & !beside == 0 {
+        return None;
+    }
     let normal = [row(&block.normal[0]), row(&block.normal[1]), row(&block.normal[2])];
     let w = normal[0] * corner[0] + normal[1] * corner[1] + normal[2] * corner[2];
     let facing_slack = row(&block.facing_slack);
@@ -117,7 +163,7 @@ fn answer<S: Simd>(simd: S, block: &Block, view: &View) -> Answer {
     let last = [next[0] + second[0], next[1] + second[1], next[2] + second[2]];
     let third = [-(first[0] + second[0]), -(first[1] + second[1]), -(first[2] + second[2])];
     let zero = f32x16::splat(simd, 0.0);
-    let mut answer = Answer { facing, beside: 0, cut: [0; 3], chosen: [u16::MAX, 0] };
+    let mut answer = Answer { facing, beyond: beside, beside, cut: [0; 3], chosen: [u16::MAX, 0] };
     macro_rules! edge {
         ($k:expr, $from:expr, $line:expr) => {
             let plane = cross($from, $line);
@@ -135,7 +181,7 @@ fn answer<S: Simd>(simd: S, block: &Block, view: &View) -> Answer {
     edge!(0, corner, first);
     edge!(1, next, second);
     edge!(2, last, third);
-    answer
+    Some(answer)
 }
 
 impl Met {
@@ -152,17 +198,27 @@ impl Met {
         self.count = 0;
     }
 
-    /// Meets the casters of `cell` that are `live`; whether one of them hides the whole light.
+    /// Meets the casters of `cell` that are `live` and not `joined`; whether one of them hides the whole light.
     #[inline(always)]
-    pub fn meet<S: Simd>(&mut self, simd: S, soft: &Soft, cell: &Cell, live: &[u16], view: &View) -> bool {
-        for (at, live) in live.iter().enumerate() {
-            if *live == 0 {
+    pub fn meet<S: Simd>(
+        &mut self,
+        simd: S,
+        soft: &Soft,
+        cell: &Cell,
+        live: &[u16],
+        joined: &[u16],
+        view: &View,
+    ) -> bool {
+        for (at, (live, joined)) in live.iter().zip(joined).enumerate() {
+            let live = live & !joined;
+            if live == 0 {
                 continue;
             }
             let answer = simd.vectorize(
                 #[inline(always)]
-                || answer(simd, &cell.blocks[at], view),
+                || answer(simd, &cell.blocks[at], live, view),
             );
+            let Some(answer) = answer else { continue };
             let sure = answer.facing[0] | answer.facing[1];
             let mut near = live & sure & !answer.beside;
             let [cut_0, cut_1, cut_2] = answer.cut;
@@ -182,7 +238,7 @@ impl Met {
                 let cut = [cut_0 >> lane & 1 == 1, cut_1 >> lane & 1 == 1, cut_2 >> lane & 1 == 1];
                 self.enter(cell, (LANES * at) as u32 + lane, facing, cut);
             }
-            let mut flat = live & !sure;
+            let mut flat = live & !sure & !answer.beyond;
             while flat != 0 {
                 let slot = (LANES * at) as u32 + flat.trailing_zeros();
                 flat &= flat - 1;

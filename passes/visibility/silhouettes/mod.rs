@@ -28,6 +28,7 @@
 //!
 //! Departs from the papers: any topology, exact, and a step of one light sample at a time in place of spans.
 
+mod borders;
 mod cell;
 mod count;
 mod cpu;
@@ -61,8 +62,12 @@ pub static PASS: Pass = Pass {
     params: &[],
     counters: &[
         info("gathered", "casters in the shafts of cells, once a cell"),
-        info("met", "(view-sample, caster) pairs looked at"),
-        info("near", "those of them that may hide a part of the light, where some do"),
+        info("borders", "edges where joined casters end, once a cell"),
+        info("recounted", "view-samples for which joined casters were counted one by one"),
+        info(
+            "near",
+            "(view-sample, caster) pairs, not of joined casters, in which the caster may hide a part of the light",
+        ),
         info("crossing", "(view-sample, edge) pairs whose jump was added"),
         info("whole_rows", "view-samples all of whose light samples were decided at once"),
         info("counted_rows", "view-samples that edges crossed"),

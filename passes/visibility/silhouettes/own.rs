@@ -1,5 +1,7 @@
 //! Which casters of a cell the plane of a view-sample's own triangle lets through: the rule of
 //! [`crate::shared::predicate::OwnPlane`], sixteen casters at a time.
+//!
+//! Where the plane has light samples on both sides, each side lets other casters through: they are counted apart.
 
 use super::LANES;
 use super::cell::Cell;
@@ -10,16 +12,22 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
 /// 2^-20 with room: what rounding does to a height over the own plane, of the lengths it is made of.
 const ERROR: f64 = 1e-6;
 
-/// The casters let through.
-pub struct Admitted {
-    /// The triangle they were sorted out for.
-    own: Option<u32>,
-    /// Sides of its plane.
+/// The casters that the plane of one triangle lets through.
+pub struct Run {
+    /// Sides of the plane.
     pub sides: OwnSides,
-    /// By block: those let through for every light sample.
-    pub live: Vec<u16>,
-    /// Those let through for some light samples only, by slot.
-    pub partly: Vec<u32>,
+    /// By kind of light sample: by block, casters let through for them.
+    live: [Vec<u16>; 3],
+    kinds: usize,
+}
+
+/// Light samples in which [`Run::live`] differs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Plus,
+    Minus,
+    /// In the plane: nothing is held back.
+    Level,
 }
 
 /// The own plane in the cell's unit, upright on the side where `predicate::side` is 1.
@@ -48,71 +56,94 @@ impl Plane {
     }
 }
 
-impl Admitted {
-    /// For the first cell.
+impl Run {
+    /// For any triangle.
     pub fn new(soft: &Soft) -> Self {
-        Self { own: None, sides: OwnSides::new(soft), live: Vec::new(), partly: Vec::new() }
-    }
-
-    /// The cell has changed.
-    pub fn forget(&mut self) {
-        self.own = None;
+        Self { sides: OwnSides::new(soft), live: [const { Vec::new() }; 3], kinds: 0 }
     }
 
     /// Sorts out the casters of `cell` for view-samples on triangle `own`.
     #[inline(always)]
     pub fn turn_to<S: Simd>(&mut self, simd: S, soft: &Soft, cell: &Cell, own: u32) {
-        if self.own == Some(own) {
-            return;
-        }
-        self.own = Some(own);
         self.sides.turn_to(soft, own);
-        self.live.clear();
-        self.partly.clear();
+        self.live.iter_mut().for_each(Vec::clear);
+        self.kinds = 1;
         let Some(corners) = soft.triangles.get(own as usize) else {
-            self.live.extend((0..cell.blocks.len()).map(|at| lanes(cell, at)));
+            self.live[0].extend((0..cell.blocks.len()).map(|at| cell.lanes(at)));
             return;
         };
         let plane = Plane::new(cell, corners);
         for at in 0..cell.blocks.len() {
             let [plus, minus, below, above] = heights(simd, cell, at, &plane);
-            let (mut through, out) = match self.sides.whole {
-                1 => (plus, below),
-                -1 => (minus, above),
-                _ => (plus & minus, 0),
+            let all = cell.lanes(at);
+            let mut through = [plus & all, minus & all];
+            let known = [plus | below, minus | above];
+            let mut doubts = match self.sides.whole {
+                1 => all & !known[0],
+                -1 => all & !known[1],
+                _ => all & !(known[0] & known[1]),
             };
-            let all = lanes(cell, at);
-            through &= all;
-            let mut doubts = all & !through & !out;
             while doubts != 0 {
                 let lane = doubts.trailing_zeros() as usize;
                 doubts &= doubts - 1;
-                let slot = LANES * at + lane;
-                let on = self.sides.corners_on(soft, &soft.triangles[cell.slots[slot].triangle as usize]);
-                let is_through = match self.sides.whole {
-                    1 => on[1],
-                    -1 => on[0],
-                    _ => on == [true; 2],
-                };
-                through |= u16::from(is_through) << lane;
-                if self.sides.whole == 0 && !is_through {
-                    self.partly.push(slot as u32);
-                }
+                let triangle = cell.slots[LANES * at + lane].triangle;
+                let on = self.sides.corners_on(soft, &soft.triangles[triangle as usize]);
+                through[0] = through[0] & !(1 << lane) | u16::from(on[1]) << lane;
+                through[1] = through[1] & !(1 << lane) | u16::from(on[0]) << lane;
             }
-            let own_lane = (0..LANES)
+            let itself = (0..LANES)
                 .filter(|lane| cell.slots.get(LANES * at + lane).is_some_and(|slot| slot.triangle == own))
                 .fold(0, |lanes, lane| lanes | 1 << lane);
-            self.live.push(through & !own_lane);
+            match self.sides.whole {
+                1 => self.live[0].push(through[0] & !itself),
+                -1 => self.live[0].push(through[1] & !itself),
+                _ => {
+                    self.live[0].push(through[0] & !itself);
+                    self.live[1].push(through[1] & !itself);
+                    self.live[2].push(all & !itself);
+                }
+            }
         }
-        self.partly.retain(|slot| cell.slots[*slot as usize].triangle != own);
+        if self.sides.whole == 0 {
+            let is_level = (0..soft.light.words()).any(|word| self.allowed_of(soft, Kind::Level, word) != 0);
+            self.kinds = match (is_level, self.live[0] == self.live[1] && self.live[1] == self.live[2]) {
+                (_, true) => 1,
+                (false, _) => 2,
+                (true, _) => 3,
+            };
+        }
     }
-}
 
-/// Lanes of block `at` that hold a caster.
-#[inline(always)]
-fn lanes(cell: &Cell, at: usize) -> u16 {
-    let count = cell.slots.len() - LANES * at;
-    if count >= LANES { u16::MAX } else { (1 << count) - 1 }
+    /// How many kinds of light samples differ in what is let through.
+    pub fn kinds(&self) -> usize {
+        self.kinds
+    }
+
+    /// Casters let through for light samples of `kind`, by block.
+    pub fn live(&self, kind: usize) -> &[u16] {
+        &self.live[kind]
+    }
+
+    /// Light samples of `kind` in `word`.
+    pub fn allowed(&self, soft: &Soft, kind: usize, word: usize) -> u32 {
+        match (self.kinds, kind) {
+            (1, _) => soft.light.used(word),
+            (_, 0) => self.allowed_of(soft, Kind::Plus, word),
+            (_, 1) => self.allowed_of(soft, Kind::Minus, word),
+            _ => self.allowed_of(soft, Kind::Level, word),
+        }
+    }
+
+    fn allowed_of(&self, soft: &Soft, kind: Kind, word: usize) -> u32 {
+        // What the rule admits of a caster with corners on one side alone, and of one with corners on neither.
+        let admitted = |on| self.sides.admitted(on, word) & soft.light.used(word);
+        let level = admitted([false, false]);
+        match kind {
+            Kind::Level => level,
+            Kind::Plus => admitted([false, true]) & !level,
+            Kind::Minus => admitted([true, false]) & !level,
+        }
+    }
 }
 
 /// Casters with a corner surely on the plane's side 1, with one surely on its side -1, and those surely wholly on -1 and on 1.
