@@ -95,8 +95,13 @@ fn is_finite(corners: &[[f32; 3]; 3]) -> bool {
     corners.as_flattened().iter().all(|x| x.is_finite())
 }
 
-/// Masks `[P ceil(L/32)]` on instruction set `level`.
-pub fn masks(soft: &Soft, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) -> (Vec<u32>, Counts) {
+/// The edges of all casters of `soft`.
+pub fn edges_of(soft: &Soft) -> Edges {
+    Edges::new(soft.triangles, |id| soft.caster_state[id] != 0 && is_finite(&soft.triangles[id]))
+}
+
+/// Masks `[P ceil(L/32)]` on instruction set `level`, with the edges of all casters.
+pub fn masks(soft: &Soft, edges: &Edges, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) -> (Vec<u32>, Counts) {
     let words = soft.light.words();
     let base = |row: usize| match soft.sample_state[row / words] {
         BACKGROUND | KEPT => 0,
@@ -115,7 +120,6 @@ pub fn masks(soft: &Soft, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) ->
     let unlisted: Vec<u32> = (0..soft.position.len() as u32)
         .filter(|row| soft.sample_state[*row as usize] == KEPT && soft.cell[*row as usize] == NO_CELL)
         .collect();
-    let edges = Edges::new(soft.triangles, |id| casts(id) && is_finite(&soft.triangles[id]));
     let choices = choices(&soft.light);
     let by_cell = soft.listed.chunk_by(|a, b| soft.cell[*a as usize] == soft.cell[*b as usize]);
     let tasks: Vec<(&[u32], bool)> = by_cell
@@ -127,7 +131,7 @@ pub fn masks(soft: &Soft, level: Level, progress: &(dyn Fn(u64, u64) + Sync)) ->
     let counts = tasks
         .par_iter()
         .map_init(
-            || Worker::new(soft, &edges, &choices),
+            || Worker::new(soft, edges, &choices),
             |worker, (rows, listed)| {
                 worker.counts = Counts::default();
                 let casters = if *listed { soft.casters_of(rows[0] as usize) } else { &everyone };
@@ -356,7 +360,7 @@ impl<'a> Worker<'a> {
 /// The CPU function.
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     let soft = Soft::new(cx, LightBox::clustered(cx.input(input::LIGHT_SAMPLES.name).as_vec3()));
-    let (mask, counts) = masks(&soft, Level::new(), cx.progress());
+    let (mask, counts) = masks(&soft, &edges_of(&soft), Level::new(), cx.progress());
     cx.put(ports::MASK.name, Array::u32([soft.position.len(), soft.light.words()], mask));
     cx.count("gathered", counts.gathered);
     cx.count("borders", counts.borders);
