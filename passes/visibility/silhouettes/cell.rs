@@ -69,8 +69,10 @@ pub struct Cell {
     pub slots: Vec<Slot>,
     /// Casters to be tested singly.
     pub singles: Vec<u32>,
-    /// By number in the cell: the edge.
-    pub edges: Vec<u32>,
+    /// By number in the cell: the edge, and its ends.
+    edges: Vec<u32>,
+    /// See `edges`.
+    pub ends: Vec<[[f32; 3]; 2]>,
     /// By edge: its number in the cell, if it is of this cell.
     number: Vec<u32>,
 }
@@ -194,6 +196,7 @@ impl Cell {
             slots: Vec::new(),
             singles: Vec::new(),
             edges: Vec::new(),
+            ends: Vec::new(),
             number: vec![u32::MAX; edges],
         }
     }
@@ -224,6 +227,7 @@ impl Cell {
         for edge in self.edges.drain(..) {
             self.number[edge as usize] = u32::MAX;
         }
+        self.ends.clear();
         self.blocks.clear();
         self.slots.clear();
         self.singles.clear();
@@ -293,6 +297,7 @@ impl Cell {
             if *number == u32::MAX {
                 *number = self.edges.len() as u32;
                 self.edges.push(*edge / 2);
+                self.ends.push(edges.ends[*edge as usize / 2]);
             }
             *edge = 2 * *number + *edge % 2;
         }

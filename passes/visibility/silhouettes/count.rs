@@ -10,7 +10,6 @@
 
 use super::borders::strictly;
 use super::cell::Cell;
-use super::edges::Edges;
 use super::meet::Met;
 use crate::shared::light_box::LightBox;
 use crate::shared::light_sides::{Sides, sides};
@@ -42,7 +41,7 @@ fn minus(a: [f32; 3], b: [f32; 3]) -> [f64; 3] {
     [f64::from(a[0]) - f64::from(b[0]), f64::from(a[1]) - f64::from(b[1]), f64::from(a[2]) - f64::from(b[2])]
 }
 
-/// Sets plane `k`: whether some of the light may be inside.
+/// Sets plane `k`, of which some of the light may be on either side.
 #[inline(always)]
 fn set(
     planes: &mut Planes,
@@ -52,14 +51,10 @@ fn set(
     normal: [f64; 3],
     slack: f64,
     turned: bool,
-) -> bool {
-    let constant = dot(normal, to_light);
+) {
     let range = normal[0].abs() * light.half[0] + normal[1].abs() * light.half[1] + normal[2].abs() * light.half[2];
-    let (value, width) = (if turned { -constant } else { constant }, light.spread(normal) * (1.0 + 1e-12) + slack);
-    (planes.normal[k], planes.constant[k], planes.slack[k], planes.range[k]) = (normal, constant, slack, range);
-    planes.turned[k] = turned;
-    planes.cut[k] = value <= width;
-    value >= -width
+    (planes.normal[k], planes.constant[k], planes.slack[k]) = (normal, dot(normal, to_light), slack);
+    (planes.range[k], planes.turned[k], planes.cut[k]) = (range, turned, true);
 }
 
 impl Counters {
@@ -70,7 +65,6 @@ impl Counters {
         simd: S,
         soft: &Soft,
         cell: &Cell,
-        edges: &Edges,
         met: &mut Met,
         position: [f32; 3],
         chosen: usize,
@@ -84,8 +78,7 @@ impl Counters {
         self.doubts.resize(self.words, 0);
         self.planes.clear();
         // No counter can end higher.
-        let jumps = met.touched.iter().map(|edge| met.jump[*edge as usize].unsigned_abs()).sum::<u32>();
-        let bits = u32::BITS - (before + jumps).leading_zeros();
+        let bits = u32::BITS - (before + met.sum_up()).leading_zeros();
         for bit in 0..bits {
             let set = if before >> bit & 1 == 1 { u32::MAX } else { 0 };
             self.planes.extend((0..self.words).map(|_| set));
@@ -94,17 +87,12 @@ impl Counters {
         let to_chosen = minus(light.samples[chosen], position);
         let far = ERROR * (size(to_light) + light.half.iter().sum::<f64>());
         let (mut planes, mut crossing) = (Planes::EMPTY, 0);
-        for edge in &met.touched {
-            let jump = std::mem::take(&mut met.jump[*edge as usize]);
-            if jump == 0 {
-                continue;
-            }
-            let [a, b] = edges.ends[cell.edges[*edge as usize] as usize];
+        for (edge, jump) in &met.changes {
+            let [a, b] = cell.ends[*edge as usize];
             let (from, to, line) = (minus(a, position), minus(b, position), minus(b, a));
             let normal = cross(from, line);
             let lengths = size(from) * size(line);
-            let constant = dot(normal, to_light);
-            if constant.abs() > light.spread(normal) * (1.0 + 1e-12) + far * lengths {
+            if dot(normal, to_light).abs() > light.spread(normal) * (1.0 + 1e-12) + far * lengths {
                 continue;
             }
             let value = dot(normal, to_chosen);
@@ -116,15 +104,13 @@ impl Counters {
                     side => side > 0,
                 }
             };
+            set(&mut planes, 0, light, to_light, normal, far * lengths, side);
+            // These two go through the chosen light sample: they cut the light.
             let reach = far * size(to_chosen);
-            if !(set(&mut planes, 0, light, to_light, normal, far * lengths, side)
-                && set(&mut planes, 1, light, to_light, cross(from, to_chosen), reach * size(from), side)
-                && set(&mut planes, 2, light, to_light, cross(to, to_chosen), reach * size(to), !side))
-            {
-                continue;
-            }
+            set(&mut planes, 1, light, to_light, cross(from, to_chosen), reach * size(from), side);
+            set(&mut planes, 2, light, to_light, cross(to, to_chosen), reach * size(to), !side);
             crossing += 1;
-            let change = if side { -jump } else { jump };
+            let change = if side { -*jump } else { *jump };
             let mut behind = Sides::new(&planes, light);
             for word in 0..self.words {
                 let [inside, doubtful] = sides(simd, &mut behind, light, word);

@@ -67,8 +67,11 @@ impl View {
 pub struct Met {
     /// By edge of the cell: its jump, where it is not zero or is `touched`.
     pub jump: Vec<i32>,
-    /// Edges, some more than once, that a caster of `near` may have across the light.
-    pub touched: Vec<u32>,
+    /// Edges, some more than once, that a caster of `near` may have across the light: the first `touched_count`.
+    touched: Vec<u32>,
+    touched_count: usize,
+    /// Edges with a jump, and it.
+    pub changes: Vec<(u32, i32)>,
     /// Slots of casters that may hide a part of the light.
     pub near: Vec<u32>,
     /// Slots of those of which it is not sure whether they hide the chosen light sample.
@@ -187,9 +190,7 @@ pub fn answer<S: Simd>(simd: S, block: &Block, live: u16, view: &View) -> Option
 impl Met {
     /// Forgets the last view-sample; `edges` are in the cell.
     pub fn clear(&mut self, edges: usize) {
-        for edge in self.touched.drain(..) {
-            self.jump[edge as usize] = 0;
-        }
+        self.sum_up();
         if self.jump.len() < edges {
             self.jump.resize(edges, 0);
         }
@@ -261,11 +262,36 @@ impl Met {
         self.near.push(slot);
         let edges = cell.slots[slot as usize].edges;
         for k in 0..3 {
-            if cut[k] {
-                let edge = edges[k] / 2;
-                self.jump[edge as usize] += if edges[k] % 2 == 0 { facing } else { -facing };
-                self.touched.push(edge);
-            }
+            let jump = if edges[k] % 2 == 0 { facing } else { -facing };
+            self.touch(edges[k] / 2, jump, cut[k]);
         }
+    }
+
+    /// Adds `jump` to `edge` if it `is_cut`: without a branch, for nothing predicts it.
+    #[inline(always)]
+    pub fn touch(&mut self, edge: u32, jump: i32, is_cut: bool) {
+        if self.touched_count == self.touched.len() {
+            self.touched.resize(2 * self.touched_count + 64, 0);
+        }
+        self.jump[edge as usize] += if is_cut { jump } else { 0 };
+        self.touched[self.touched_count] = edge;
+        self.touched_count += usize::from(is_cut);
+    }
+
+    /// Moves the jumps that are not zero to `changes`; the sum of their sizes.
+    #[inline(always)]
+    pub fn sum_up(&mut self) -> u32 {
+        self.changes.clear();
+        self.changes.resize(self.touched_count, (0, 0));
+        let (mut count, mut sum) = (0, 0);
+        for edge in &self.touched[..self.touched_count] {
+            let jump = std::mem::take(&mut self.jump[*edge as usize]);
+            self.changes[count] = (*edge, jump);
+            count += usize::from(jump != 0);
+            sum += jump.unsigned_abs();
+        }
+        self.changes.truncate(count);
+        self.touched_count = 0;
+        sum
     }
 }

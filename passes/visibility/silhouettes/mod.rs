@@ -14,17 +14,20 @@
 //! Out: `mask [P ceil(L/32)]`, bit set = blocked; all bits set for a view-sample facing away, none for background.
 //! It equals [`crate::shared::predicate::blocks`] bit for bit, given casters that hold all that matter.
 //!
-//! The way of a cell:
+//! The way of a cell, in parts of view-samples that lie close together (`worker`):
 //! 1. its casters in the shaft to the light, from its own origin, sixteen to a block (`cell`); edges have one number for all their
 //!    casters (`edges`);
-//! 2. for each triangle that its view-samples lie on, the casters that its plane lets through (`own`);
-//! 3. for each view-sample, the casters near the light's cone (`meet`): one that hides all of the light ends the work;
-//! 4. D is counted at the light sample nearest the light's middle, and each edge with a jump adds it to the light samples behind the
+//! 2. for each triangle that its view-samples lie on, the casters that its plane lets through (`own`); where the light is on both sides of
+//!    that plane, each side is counted apart;
+//! 3. casters that have one facing for the whole part are joined: edges between them are dropped, and D of them follows from one view-sample
+//!    to the next by the borders that are left (`borders`);
+//! 4. for each view-sample, the borders and the other casters near the light's cone (`meet`): one caster that hides all of the light
+//!    ends the work;
+//! 5. D is known at the light sample nearest the light's middle, and each edge with a jump adds it to the light samples behind the
 //!    edge (`count`).
 //!
-//! A caster that may reach as far as the light, or that the own plane lets through for some light samples only, is tested alone, as in
-//! `half_planes`. A light sample that rounding cannot tell from a border is decided by the predicate; where the chosen light sample is
-//! one of those another is chosen.
+//! A caster that may reach as far as the light is tested alone, as in `half_planes`. A light sample that rounding cannot tell from a
+//! border is decided by the predicate; where the chosen light sample is one of those another is chosen.
 //!
 //! Departs from the papers: any topology, exact, and a step of one light sample at a time in place of spans.
 
@@ -37,6 +40,7 @@ mod meet;
 mod own;
 #[cfg(test)]
 mod tests;
+mod worker;
 
 use super::STAGE;
 use crate::ports;
