@@ -182,6 +182,16 @@ fn one_wrong_jump_is_seen() {
             assert_ne!(found, expected, "edge {edge} of triangle {triangle}");
         }
     }
+    // Among joined casters: an edge that no longer balances.
+    let light = [0.4, 4.0, 0.2];
+    let case = scene(ball(16, 24, [0.0; 3], 0.6), 300, 3, light, 8, 1);
+    let case = SoftCase { samples: lamp(64, light, 0.6, 3), case };
+    let expected = case.mask();
+    let (found, counts) = find(&case, Level::new(), |_| {});
+    assert!(found == expected && counts[2] > 0, "borders: {counts:?}");
+    let is_seen = |triangle: usize| find(&case, Level::new(), |edges| edges.of[triangle][0] ^= 1).0 != expected;
+    let seen = (0..60).filter(|k| is_seen(12 * k + 3)).count();
+    assert!(seen > 10, "only {seen} of 60 wrong edges were seen");
 }
 
 #[test]
