@@ -77,10 +77,12 @@ pub struct Cell {
     number: Vec<u32>,
 }
 
-/// Half-spaces that hold the shaft of a cell: by direction across it, slope and least height.
+/// Half-spaces that hold the shaft of a cell: by direction across it, slope, least height, and what rounding is to be multiplied by.
 struct Shaft {
     axes: [[f64; 3]; 3],
-    sides: [[f64; 2]; 8],
+    slope: [f64; 8],
+    least: [f64; 8],
+    steep: [f64; 8],
     /// Least height of a view-sample along the axis.
     low: f64,
     /// Least and largest height of a light sample.
@@ -97,23 +99,28 @@ const FACING_SLACK: f64 = 1e-6;
 const LARGEST: f64 = 1e7;
 const SMALLEST: f64 = 1e-9;
 
+#[inline(always)]
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+#[inline(always)]
 fn minus(a: [f32; 3], b: [f32; 3]) -> [f64; 3] {
     [f64::from(a[0]) - f64::from(b[0]), f64::from(a[1]) - f64::from(b[1]), f64::from(a[2]) - f64::from(b[2])]
 }
 
+#[inline(always)]
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+#[inline(always)]
 fn size(a: [f64; 3]) -> f64 {
     a[0].abs() + a[1].abs() + a[2].abs()
 }
 
 /// The eight directions across a shaft.
+#[inline(always)]
 fn across(x: f64, y: f64) -> [f64; 8] {
     [x, -x, y, -y, x + y, x - y, y - x, -x - y]
 }
@@ -158,27 +165,31 @@ impl Shaft {
             let least = of_light[0].min(of_light[1]).min(of_views[0]).min(of_views[1]);
             [slope, least - room * (1.0 + slope.abs())]
         });
-        Some(Self { axes, sides, low: low - room, light: [heights[0] - room, heights[1] + room] })
+        let [slope, least] = [sides.map(|side| side[0]), sides.map(|side| side[1])];
+        let steep = slope.map(|slope| 4.0 * (1.0 + slope.abs()));
+        Some(Self { axes, slope, least, steep, low: low - room, light: [heights[0] - room, heights[1] + room] })
     }
 
     /// Whether a caster with these corners is left out, and whether it is before the light.
     #[inline(always)]
     fn place(&self, corners: &[[f64; 3]; 3]) -> (bool, bool) {
+        // Coordinates are numbers: plain comparisons, which fit a register of eight, will do.
+        let greater = |a: f64, b: f64| if a > b { a } else { b };
         let mut most = [f64::MIN; 8];
         let (mut low, mut high, mut far) = (f64::MAX, f64::MIN, 0.0f64);
         for corner in corners {
-            far = far.max(size(*corner));
+            far = greater(far, size(*corner));
             let (x, y, z) = (dot(self.axes[0], *corner), dot(self.axes[1], *corner), dot(self.axes[2], *corner));
             let sides = across(x, y);
             for k in 0..8 {
-                most[k] = most[k].max(sides[k] - self.sides[k][0] * z);
+                most[k] = greater(most[k], sides[k] - self.slope[k] * z);
             }
-            (low, high) = (low.min(z), high.max(z));
+            (low, high) = (-greater(-low, -z), greater(high, z));
         }
         let room = ROOM * far;
         let mut out = high + room < self.low || low - room > self.light[1];
         for k in 0..8 {
-            out |= most[k] + 4.0 * room * (1.0 + self.sides[k][0].abs()) < self.sides[k][1];
+            out |= most[k] + room * self.steep[k] < self.least[k];
         }
         (out, high + room < self.light[0])
     }
@@ -216,6 +227,7 @@ impl Cell {
     }
 
     /// Turns to the view-samples at `views` and to `casters`.
+    #[inline(always)]
     pub fn turn_to(
         &mut self,
         views: &[[f32; 3]],

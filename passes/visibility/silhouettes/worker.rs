@@ -147,7 +147,10 @@ impl<'a> Worker<'a> {
         // View-samples of one triangle together: its plane lets the same casters through.
         self.rows.sort_unstable_by_key(|row| (soft.triangle[*row as usize], *row));
         let views: Vec<[f32; 3]> = self.rows.iter().map(|row| soft.position[*row as usize]).collect();
-        self.cell.turn_to(&views, &soft.light, soft.triangles, self.edges, casters);
+        simd.vectorize(
+            #[inline(always)]
+            || self.cell.turn_to(&views, &soft.light, soft.triangles, self.edges, casters),
+        );
         self.counts.gathered += self.cell.slots.len() as u64;
         self.prepare(simd);
         let (mut run, mut own) = (0, soft.triangle[self.rows[0] as usize]);
