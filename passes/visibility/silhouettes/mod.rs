@@ -29,6 +29,13 @@
 //! A caster that may reach as far as the light is tested alone, as in `half_planes`. A light sample that rounding cannot tell from a
 //! border is decided by the predicate; where the chosen light sample is one of those another is chosen.
 //!
+//! What was found on two threads of an AVX-512 machine, bunny and knots at 512x512:
+//! - the planes of a small caster's edges nearly all cut the light's ball, however far off it lies: one plane that touches the cone beside it
+//!   took three quarters of the edges away;
+//! - where the own plane cuts the light, testing alone what it lets through on one side cost more than counting each side apart;
+//! - parts of 32 view-samples in place of whole cells leave a twentieth of the casters that have no facing for all;
+//! - sheets end the work on a quarter of the view-samples that edges crossed.
+//!
 //! Departs from the papers: any topology, exact, and a step of one light sample at a time in place of spans.
 
 mod borders;
