@@ -244,7 +244,7 @@ impl Borders {
     fn count_from_origin<S: Simd>(&mut self, simd: S, soft: &Soft, cell: &Cell, chosen: usize) -> bool {
         let view = View::new(cell, soft, cell.origin, chosen);
         let mut before = Vec::new();
-        let is_sure = self.count_at(simd, soft, cell, &view, chosen, |slot| before.push(slot)).is_some();
+        let is_sure = self.count_at(simd, soft, cell, &view, |slot| before.push(slot)).is_some();
         self.count.clear();
         self.number.clear();
         self.number.resize(cell.slots.len(), NONE);
@@ -255,7 +255,7 @@ impl Borders {
         is_sure
     }
 
-    /// Tells of each joined caster between `view` and light sample `chosen`; none where that is on a border of one.
+    /// Tells of each joined caster between `view` and its chosen light sample; none where that is on a border of one.
     #[inline(always)]
     pub fn count_at<S: Simd>(
         &self,
@@ -263,7 +263,6 @@ impl Borders {
         soft: &Soft,
         cell: &Cell,
         view: &View,
-        chosen: usize,
         mut tell: impl FnMut(u32),
     ) -> Option<()> {
         for (at, joined) in self.joined.iter().enumerate() {
@@ -286,7 +285,7 @@ impl Borders {
                 let slot = (LANES * at) as u32 + doubts.trailing_zeros();
                 doubts &= doubts - 1;
                 let caster = &soft.triangles[cell.slots[slot as usize].triangle as usize];
-                if strictly(caster, view.position, soft.light.samples[chosen])? {
+                if strictly(caster, view.position, soft.light.samples[view.sample])? {
                     tell(slot);
                 }
             }

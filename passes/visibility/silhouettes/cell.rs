@@ -188,8 +188,8 @@ impl Shaft {
         }
         let room = ROOM * far;
         let mut out = high + room < self.low || low - room > self.light[1];
-        for k in 0..8 {
-            out |= most[k] + room * self.steep[k] < self.least[k];
+        for (most, (steep, least)) in most.iter().zip(self.steep.iter().zip(&self.least)) {
+            out |= most + room * steep < *least;
         }
         (out, high + room < self.light[0])
     }

@@ -10,7 +10,7 @@
 
 use super::borders::strictly;
 use super::cell::Cell;
-use super::meet::Met;
+use super::meet::{Met, View};
 use crate::shared::light_box::LightBox;
 use crate::shared::light_sides::{Sides, sides};
 use crate::shared::predicate;
@@ -66,11 +66,10 @@ impl Counters {
         soft: &Soft,
         cell: &Cell,
         met: &mut Met,
-        position: [f32; 3],
-        chosen: usize,
+        view: &View,
         joined: i32,
     ) -> Result<(), BadChoice> {
-        let light = &soft.light;
+        let (light, position, chosen) = (&soft.light, view.position, view.sample);
         let single = met.count + doubtful(soft, cell, met, position, light.samples[chosen])?;
         let before = single.wrapping_add_signed(joined);
         self.words = light.words();

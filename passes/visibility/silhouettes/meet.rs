@@ -19,6 +19,8 @@ use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x
 pub struct View {
     /// World space.
     pub position: [f32; 3],
+    /// The chosen light sample.
+    pub sample: usize,
     /// From the cell's origin.
     pub place: [f32; 3],
     /// From the view-sample to the light's middle.
@@ -37,18 +39,19 @@ pub struct View {
 }
 
 impl View {
-    /// Of `position`, with light sample `chosen`.
-    pub fn new(cell: &Cell, soft: &Soft, position: [f32; 3], chosen: usize) -> Self {
+    /// Of `position`, with light sample `sample` chosen.
+    pub fn new(cell: &Cell, soft: &Soft, position: [f32; 3], sample: usize) -> Self {
         let to = |point: [f32; 3]| {
             let along = |k: usize| ((f64::from(point[k]) - f64::from(position[k])) * cell.scale) as f32;
             [along(0), along(1), along(2)]
         };
         let size = |v: [f32; 3]| v[0].abs() + v[1].abs() + v[2].abs();
-        let (middle, chosen) = (to(soft.light.middle), to(soft.light.samples[chosen]));
+        let (middle, chosen) = (to(soft.light.middle), to(soft.light.samples[sample]));
         let radius = (soft.light.radius * cell.scale) as f32;
         let length = (middle[0] * middle[0] + middle[1] * middle[1] + middle[2] * middle[2]).sqrt();
         Self {
             position,
+            sample,
             place: cell.local(position),
             middle,
             chosen,
@@ -133,7 +136,7 @@ pub fn beside<S: Simd, const N: usize>(
     let mut height = from[0] * normal[0] + from[1] * normal[1] + from[2] * normal[2];
     let mut least = height;
     for step in steps {
-        height = height + (step[0] * normal[0] + step[1] * normal[1] + step[2] * normal[2]);
+        height += step[0] * normal[0] + step[1] * normal[1] + step[2] * normal[2];
         least = least.min(height);
     }
     bits(is_light_behind & least.simd_gt((reach + view.reach) * size * 1e-6))
@@ -262,7 +265,7 @@ impl Met {
         self.near.push(slot);
         let edges = cell.slots[slot as usize].edges;
         for k in 0..3 {
-            let jump = if edges[k] % 2 == 0 { facing } else { -facing };
+            let jump = if edges[k].is_multiple_of(2) { facing } else { -facing };
             self.touch(edges[k] / 2, jump, cut[k]);
         }
     }

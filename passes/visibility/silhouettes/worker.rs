@@ -226,7 +226,7 @@ impl<'a> Worker<'a> {
                     _ => {
                         self.counts.recounted += 1;
                         let tell = |_| joined += 1;
-                        if self.borders.count_at(simd, soft, &self.cell, &view, chosen, tell).is_none() {
+                        if self.borders.count_at(simd, soft, &self.cell, &view, tell).is_none() {
                             continue;
                         }
                     }
@@ -239,7 +239,7 @@ impl<'a> Worker<'a> {
             self.counts.near += self.met.near.len() as u64;
             let before = self.counters.crossing;
             let Self { counters, met, cell, .. } = self;
-            if counters.count(simd, soft, cell, met, position, chosen, joined).is_err() {
+            if counters.count(simd, soft, cell, met, &view, joined).is_err() {
                 continue;
             }
             let crossing = self.counters.crossing - before;
