@@ -77,7 +77,7 @@ impl Counters {
         self.doubts.resize(self.words, 0);
         self.planes.clear();
         // No counter can end higher.
-        let bits = u32::BITS - (before + met.sum_up()).leading_zeros();
+        let bits = u32::BITS - before.saturating_add(met.sum_up()).leading_zeros();
         for bit in 0..bits {
             let set = if before >> bit & 1 == 1 { u32::MAX } else { 0 };
             self.planes.extend((0..self.words).map(|_| set));
