@@ -19,6 +19,7 @@ const BUILTIN: &[(&str, &str)] = &[
     ("truth_hard", include_str!("variants/truth_hard.ron")),
     ("truth_soft", include_str!("variants/truth_soft.ron")),
     ("soft_shafts", include_str!("variants/soft_shafts.ron")),
+    ("soft_silhouettes", include_str!("variants/soft_silhouettes.ron")),
 ];
 
 /// Text of the built-in graph `name`.

@@ -19,7 +19,7 @@ pub fn trials() -> Vec<Trial> {
             trials.push(Trial::test(format!("graphs/{graph}/{scene}/cpu"), move || {
                 runs(graph, scene, BackendChoice::Cpu)
             }));
-            if !["truth_hard", "truth_soft", "soft_shafts"].contains(&graph) {
+            if !["truth_hard", "truth_soft", "soft_shafts", "soft_silhouettes"].contains(&graph) {
                 trials.push(gpu::trial(format!("graphs/{graph}/{scene}/wgpu"), move |_| {
                     runs(graph, scene, BackendChoice::Wgpu)
                 }));

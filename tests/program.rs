@@ -195,6 +195,7 @@ fn check() -> Result<(), Failed> {
         "truth_hard",
         "truth_soft",
         "soft_shafts",
+        "soft_silhouettes",
     ])?)
 }
 

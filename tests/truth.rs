@@ -66,6 +66,11 @@ pub fn trials() -> Vec<Trial> {
                 trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
             }
         }
+        {
+            let name = scene.clone();
+            let run = move || check_soft("soft_silhouettes", &name, "64x48", "cpu", 0.0);
+            trials.push(Trial::test(format!("truth/soft_silhouettes/{scene}/cpu"), run));
+        }
         for (backend, size, share) in [("cpu", "160x120", 0.0), ("wgpu", "96x72", GPU_SHARE)] {
             let name = format!("truth/{}/{scene}/{backend}", INFLUENCE.join("+"));
             let scene = scene.clone();

@@ -71,6 +71,7 @@ visibility/half_planes cw list_length,lu,lu_layout,bvh_nodes,bvh_order -
 visibility/bvh_rays cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,penumbra_state -
 visibility/exact c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state contact_ulps
 visibility/shafts c cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state patches,leaves
+visibility/silhouettes c list_length,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state -
 bvh_build/ploc c - -
 visibility/multi_shadow_map cw cell,list_length,list_offset,list_entries,caster_offset,caster_entries,lu,lu_layout,bvh_nodes,bvh_order,penumbra_state -
 light_depth/first_surface cw - size,bias

@@ -188,7 +188,7 @@ fn a_pass_without_a_function_for_its_backend_names_its_peers() {
     assert_eq!(
         plan_of(&graph, &Overrides::default()).unwrap_err().to_string(),
         "builtin:hard_draw:5:40: visibility: pass `fused_draw` does not run on cpu \
-         (these passes run there: planes, lu, lu_planar, lu_certain, fused, half_planes, bvh_rays, exact, shafts, multi_shadow_map; `on: Wgpu` runs this one)"
+         (these passes run there: planes, lu, lu_planar, lu_certain, fused, half_planes, bvh_rays, exact, shafts, silhouettes, multi_shadow_map; `on: Wgpu` runs this one)"
     );
     let problems = plan_of(&graph, &Overrides::default()).unwrap_err();
     assert_eq!(problems.0[0].kind, Kind::Unsupported);

@@ -175,7 +175,7 @@ impl<'a> Soft<'a> {
     }
 
     /// Casters of the cell of view-sample `row`.
-    fn casters_of(&self, row: usize) -> &[u32] {
+    pub fn casters_of(&self, row: usize) -> &[u32] {
         let cell = self.cell[row] as usize;
         &self.caster_entries[self.caster_offset[cell] as usize..self.caster_offset[cell + 1] as usize]
     }
@@ -205,16 +205,23 @@ struct Walk<'a> {
 }
 
 /// Which light samples are on which side of a triangle's plane, kept from one view-sample to the next: neighbours mostly lie on one.
-struct OwnSides {
+pub struct OwnSides {
     own: u32,
     /// -1 or 1 where all of the light is on one side; 0 where `plus` and `minus` say.
-    whole: i32,
+    pub whole: i32,
     plus: Vec<u32>,
     minus: Vec<u32>,
 }
 
 impl OwnSides {
-    fn turn_to(&mut self, soft: &Soft, own: u32) {
+    /// Of no triangle yet.
+    pub fn new(soft: &Soft) -> Self {
+        let none = vec![0; soft.light.words()];
+        Self { own: NO_TRIANGLE, whole: 0, plus: none.clone(), minus: none }
+    }
+
+    /// Turns to the plane of triangle `own`.
+    pub fn turn_to(&mut self, soft: &Soft, own: u32) {
         if self.own == own {
             return;
         }
@@ -235,7 +242,7 @@ impl OwnSides {
     }
 
     /// The sides of the own plane on which `caster` has a corner: towards minus, towards plus.
-    fn corners_on(&self, soft: &Soft, caster: &Corners) -> [bool; 2] {
+    pub fn corners_on(&self, soft: &Soft, caster: &Corners) -> [bool; 2] {
         let Some(own) = soft.triangles.get(self.own as usize) else { return [true; 2] };
         let sides = caster.map(|corner| predicate::side(own, corner));
         [sides.contains(&-1), sides.contains(&1)]
@@ -244,7 +251,7 @@ impl OwnSides {
     /// The light samples of word `word` that a caster with corners `on` these sides may shadow: the rule of
     /// [`predicate::OwnPlane`].
     #[inline(always)]
-    fn admitted(&self, on: [bool; 2], word: usize) -> u32 {
+    pub fn admitted(&self, on: [bool; 2], word: usize) -> u32 {
         match self.whole {
             -1 => {
                 if on[0] {
@@ -272,8 +279,14 @@ impl OwnSides {
 impl<'a> Walk<'a> {
     fn new(soft: &'a Soft<'a>) -> Self {
         let none = vec![0; soft.light.words()];
-        let own = OwnSides { own: NO_TRIANGLE, whole: 0, plus: none.clone(), minus: none.clone() };
-        Self { soft, mask: none.clone(), restored: none, own, planes: Planes::EMPTY, counts: Counts::default() }
+        Self {
+            soft,
+            mask: none.clone(),
+            restored: none,
+            own: OwnSides::new(soft),
+            planes: Planes::EMPTY,
+            counts: Counts::default(),
+        }
     }
 
     /// The view-samples `rows` against their casters; `put` takes the row and mask of each.

@@ -11,6 +11,7 @@ pub mod lu_planar;
 pub mod multi_shadow_map;
 pub mod planes;
 pub mod shafts;
+pub mod silhouettes;
 
 use crate::ports;
 use shadowgraph_core::input;
@@ -55,6 +56,7 @@ pub const PASSES: &[&Pass] = &[
     &bvh_rays::PASS,
     &half_planes::PASS,
     &shafts::PASS,
+    &silhouettes::PASS,
     &lu::PASS,
     &lu_planar::PASS,
     &lu_certain::PASS,
