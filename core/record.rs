@@ -7,6 +7,7 @@ use crate::param::Params;
 use crate::pass::Pass;
 use crate::port::Storage;
 use crate::problem::Problem;
+use std::ops::Range;
 
 /// Makes the recipe of a node.
 pub type GpuFn = fn(&mut GpuCx) -> Result<(), Problem>;
@@ -33,11 +34,17 @@ pub struct Scratch {
     pub shape: Vec<usize>,
 }
 
+/// Words between places that [`Bind::UniformOf`] may start at, and the number of which its length is a multiple of four.
+pub const UNIFORM_WORDS: usize = 64;
+
 /// What a shader sees at one binding.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bind {
     /// `var<uniform>`: these words, padded by the backend to 16 bytes.
     Uniform(Vec<u32>),
+    /// `var<uniform>` over these words of scratch memory that earlier commands wrote, from a multiple of [`UNIFORM_WORDS`] on: devices
+    /// read it faster than storage where neighbouring invocations read one place. At most 16 KiB, the least that devices bind.
+    UniformOf(Target, Range<usize>),
     /// `var<storage, read>`.
     Read(Target),
     /// `var<storage, read_write>`.

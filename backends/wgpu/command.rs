@@ -183,6 +183,7 @@ pub(crate) fn classes(prepared: &Prepared, node: usize, bind: &[Bind]) -> Vec<(C
     bind.iter()
         .map(|bind| match bind {
             Bind::Uniform(words) => (Class::Uniform((words.len().max(1) as u32 * 4).next_multiple_of(16)), None),
+            Bind::UniformOf(target, words) => (Class::Uniform(words.len() as u32 * 4), Some(part(*target))),
             Bind::Read(target) => (Class::Read, Some(part(*target))),
             Bind::ReadWrite(target) => (Class::ReadWrite, Some(part(*target))),
             Bind::Texture(target) => {

@@ -6,6 +6,7 @@ use crate::prepare::Prepared;
 use crate::shader::Class;
 use shadowgraph_core::port::Storage;
 use shadowgraph_core::record::Bind;
+use std::ops::Range;
 
 /// Resources of one command. Made once when none of them is the host's, at each recording otherwise.
 #[derive(Debug)]
@@ -19,6 +20,7 @@ pub(crate) struct Group {
 enum Entry {
     Uniform(wgpu::Buffer),
     Buffer(Part),
+    Words(Part, Range<usize>),
     Texture(Part),
 }
 
@@ -36,6 +38,7 @@ impl Group {
         let external = parts.iter().flat_map(|(_, part)| part).any(|part| matches!(part.home, Home::External(_)));
         let entry = |(bind, (class, part)): (&Bind, (Class, Option<Part>))| match (bind, class, part) {
             (_, Class::Texture(_), Some(part)) => Entry::Texture(part),
+            (Bind::UniformOf(_, words), _, Some(part)) => Entry::Words(part, words.clone()),
             (_, _, Some(part)) => Entry::Buffer(part),
             (Bind::Uniform(words), Class::Uniform(bytes), None) => {
                 Entry::Uniform(uniform(&prepared.device, queue, words, bytes))
@@ -72,6 +75,12 @@ impl Group {
                     (Entry::Buffer(part), _) => {
                         let (buffer, offset) = bound.buffer(part);
                         let size = wgpu::BufferSize::new(part.bytes());
+                        wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset, size })
+                    }
+                    (Entry::Words(part, words), _) => {
+                        let (buffer, offset) = bound.buffer(part);
+                        let size = wgpu::BufferSize::new(words.len() as u64 * 4);
+                        let offset = offset + words.start as u64 * 4;
                         wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset, size })
                     }
                     (Entry::Texture(_), Some(view)) => wgpu::BindingResource::TextureView(view),

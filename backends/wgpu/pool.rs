@@ -3,7 +3,7 @@
 //!
 //! Transients with equal alias numbers share memory, sized by the largest; so does the scratch memory of different nodes.
 
-use crate::recipe::{Recipe, named};
+use crate::recipe::{Recipe, named, uniforms};
 use shadowgraph_core::plan::{Plan, Shapes, SlotId};
 use shadowgraph_core::port::Storage;
 use shadowgraph_core::problem::{Kind, Problem};
@@ -74,6 +74,7 @@ pub(crate) struct Want {
     pub extent: [u32; 3],
     pub bytes: u64,
     pub indirect: bool,
+    pub uniform: bool,
 }
 
 /// The memory of a plan.
@@ -131,7 +132,7 @@ impl Layout {
             });
             layout.counters.push(counters);
         }
-        layout.mark_indirect(plan, recipes);
+        layout.mark_uses(plan, recipes);
         layout
     }
 
@@ -147,7 +148,15 @@ impl Layout {
         let (extent, bytes) = (extent(storage, shape), bytes(storage, shape));
         let key = (family, number, (storage != Storage::Buffer).then_some((storage, extent)));
         let index = *known.entry(key).or_insert_with(|| {
-            let want = Want { label: label.into(), owner: owner.clone(), storage, extent, bytes, indirect: false };
+            let want = Want {
+                label: label.into(),
+                owner: owner.clone(),
+                storage,
+                extent,
+                bytes,
+                indirect: false,
+                uniform: false,
+            };
             self.wants.push(want);
             self.wants.len() - 1
         });
@@ -158,15 +167,18 @@ impl Layout {
         Home::Own(index)
     }
 
-    fn mark_indirect(&mut self, plan: &Plan, recipes: &[Option<Recipe>]) {
+    /// Marks what dispatches take their size from, and what is bound as a uniform.
+    fn mark_uses(&mut self, plan: &Plan, recipes: &[Option<Recipe>]) {
         for (node, recipe) in recipes.iter().enumerate() {
             for command in recipe.iter().flat_map(|recipe| &recipe.commands) {
                 for (target, _) in named(command) {
                     let home = self.part(plan, node, target).home;
                     let is_arguments = matches!(command, Command::Dispatch(dispatch)
                         if matches!(dispatch.groups, Groups::Indirect(of, _) if of == target));
-                    if let (Home::Own(index), true) = (home, is_arguments) {
-                        self.wants[index].indirect = true;
+                    let is_uniform = uniforms(command).any(|of| of == target);
+                    if let Home::Own(index) = home {
+                        self.wants[index].indirect |= is_arguments;
+                        self.wants[index].uniform |= is_uniform;
                     }
                 }
             }
@@ -275,6 +287,7 @@ pub(crate) fn allocate(device: &wgpu::Device, layout: &Layout) -> Vec<Memory> {
         if want.storage == Storage::Buffer {
             let mut usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
             usage.set(BufferUsages::INDIRECT, want.indirect);
+            usage.set(BufferUsages::UNIFORM, want.uniform);
             let size = want.bytes;
             return Memory::Buffer(device.create_buffer(&wgpu::BufferDescriptor {
                 label,

@@ -4,7 +4,12 @@ use crate::shader::bad_pass;
 use shadowgraph_core::plan::{Backend, Node, Plan, Shapes};
 use shadowgraph_core::port::Storage;
 use shadowgraph_core::problem::{Kind, Problem};
-use shadowgraph_core::record::{Bind, Command, DeviceLimits, Dispatch, Draw, GpuCx, Groups, Scratch, Target};
+use shadowgraph_core::record::{
+    Bind, Command, DeviceLimits, Dispatch, Draw, GpuCx, Groups, Scratch, Target, UNIFORM_WORDS,
+};
+
+/// The least that devices bind as a uniform.
+const MOST_UNIFORM_WORDS: usize = 4096;
 
 /// What one node wants.
 #[derive(Debug)]
@@ -43,6 +48,7 @@ fn recipe(node: &Node, shapes: &Shapes, image: [usize; 2], limits: DeviceLimits)
         for target in written(command) {
             check_written(node, target)?;
         }
+        check_uniforms(node, &scratch, command)?;
     }
     Ok(Recipe { scratch, commands })
 }
@@ -74,6 +80,39 @@ fn check_written(node: &Node, target: Target) -> Result<(), Problem> {
     }
 }
 
+/// The memory that `command` binds as uniforms.
+pub(crate) fn uniforms(command: &Command) -> impl Iterator<Item = Target> + '_ {
+    bound(command).iter().filter_map(|bind| if let Bind::UniformOf(target, _) = bind { Some(*target) } else { None })
+}
+
+fn bound(command: &Command) -> &[Bind] {
+    match command {
+        Command::Dispatch(dispatch) => &dispatch.bind,
+        Command::Draw(draw) => &draw.bind,
+        Command::Zero(_) | Command::Copy { .. } => &[],
+    }
+}
+
+/// A uniform over memory is over scratch memory: a host's buffer need not be made for it.
+fn check_uniforms(node: &Node, scratch: &[Scratch], command: &Command) -> Result<(), Problem> {
+    for bind in bound(command) {
+        let Bind::UniformOf(target, words) = bind else { continue };
+        let room = match target {
+            Target::Scratch(index) => scratch.get(*index).map_or(0, |scratch| scratch.shape.iter().product()),
+            Target::Port(_) | Target::Counters => 0,
+        };
+        let is_aligned = words.start.is_multiple_of(UNIFORM_WORDS) && words.len().is_multiple_of(4);
+        if words.is_empty() || words.end > room || words.len() > MOST_UNIFORM_WORDS || !is_aligned {
+            return Err(bad_pass(&node.id, format!("pass {:?} binds words {words:?} of {target:?} as a uniform", node.pass))
+                .expected(format!(
+                    "words of scratch memory from a multiple of {UNIFORM_WORDS}, a multiple of 4 and at most {MOST_UNIFORM_WORDS} of them"
+                ))
+                .found(format!("{room} words")));
+        }
+    }
+    Ok(())
+}
+
 /// A command may name what its node has: connected ports it reads, outputs, scratch; each as the buffer or texture that it is.
 fn check_named(node: &Node, scratch: &[Scratch], target: Target, is_texture: bool) -> Result<(), Problem> {
     let storage = match target {
@@ -101,7 +140,7 @@ pub(crate) fn named(command: &Command) -> Vec<(Target, bool)> {
         bind.iter()
             .filter_map(|bind| match bind {
                 Bind::Uniform(_) => None,
-                Bind::Read(target) | Bind::ReadWrite(target) => Some((*target, false)),
+                Bind::UniformOf(target, _) | Bind::Read(target) | Bind::ReadWrite(target) => Some((*target, false)),
                 Bind::Texture(target) => Some((*target, true)),
             })
             .collect()

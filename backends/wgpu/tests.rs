@@ -11,11 +11,12 @@ use shadowgraph_core::param::Params;
 use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
 use shadowgraph_core::plan::{Backend, Node, Plan, Producer, Slot};
 use shadowgraph_core::port::{Direction::Out, Port};
-use shadowgraph_core::problem::Kind;
-use shadowgraph_core::record::{Bind, Command, Dispatch, GpuFn, Groups, Shader, Target};
+use shadowgraph_core::problem::{Kind, Problem};
+use shadowgraph_core::record::{Bind, Command, Dispatch, GpuCx, GpuFn, Groups, Shader, Target};
 use shadowgraph_core::shared::PRELUDE;
 use shadowgraph_core::size::SizeFn;
 use shadowgraph_core::stage::Stage;
+use std::ops::Range;
 
 const VALUE: Port = Port::new(Out, "value", U32, "number", "N");
 const SUM: Port = Port::new(Out, "sum", U32, "number", "N");
@@ -270,6 +271,47 @@ fn an_indirect_dispatch_runs_as_many_groups_as_a_kernel_wrote() {
     assert_eq!(outputs[0].1.as_u32(), [8, 15, 25, 30]);
 }
 
+/// A first kernel writes what the second reads as a uniform, from its second place on.
+const UNIFORM_WGSL: &str = "
+@group(0) @binding(0) var<storage, read> value: array<u32>;
+@group(0) @binding(1) var<storage, read_write> made: array<u32>;
+@compute @workgroup_size(64) fn make(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x < arrayLength(&made) { made[id.x] = id.x + value[0]; }
+}";
+const OF_UNIFORM_WGSL: &str = "
+@group(0) @binding(0) var<uniform> made: array<vec4<u32>, 2>;
+@group(0) @binding(1) var<storage, read_write> sum: array<u32>;
+@compute @workgroup_size(8) fn take(@builtin(global_invocation_id) id: vec3<u32>) {
+    sum[id.x] = made[id.x / 4u][id.x % 4u];
+}";
+
+fn uniform_of(cx: &mut GpuCx, words: Range<usize>) -> Result<(), Problem> {
+    let [value, sum] = ["value", "sum"].map(Target::Port);
+    let made = cx.scratch("made", 128);
+    cx.dispatch("make", &[UNIFORM_WGSL], "make", vec![Bind::Read(value), Bind::ReadWrite(made)], 128, 64);
+    let bind = vec![Bind::UniformOf(made, words), Bind::ReadWrite(sum)];
+    cx.dispatch("take", &[OF_UNIFORM_WGSL], "take", bind, 8, 8);
+    Ok(())
+}
+
+static UNIFORM: Pass = pass("uniform", &ADD, SAME_SIZE, |cx| uniform_of(cx, 64..72));
+static UNIFORM_ASTRAY: Pass = pass("uniform_astray", &ADD, SAME_SIZE, |cx| uniform_of(cx, 60..68));
+static UNIFORM_BEYOND: Pass = pass("uniform_beyond", &ADD, SAME_SIZE, |cx| uniform_of(cx, 64..132));
+static UNIFORM_OF_PORT: Pass = pass("uniform_of_port", &ADD, SAME_SIZE, |cx| {
+    let bind = vec![Bind::UniformOf(Target::Port("value"), 0..4), Bind::ReadWrite(Target::Port("sum"))];
+    cx.dispatch("take", &[OF_UNIFORM_WGSL], "take", bind, 8, 8);
+    Ok(())
+});
+
+#[test]
+fn a_uniform_over_scratch_memory_holds_what_a_kernel_wrote() {
+    let name = "a_uniform_over_scratch_memory_holds_what_a_kernel_wrote";
+    let Some(session) = Session::shared_or_skip(name) else { return };
+    let input = Array::u32([8], vec![1000; 8]);
+    let (outputs, _) = session.run_node(&UNIFORM, &Params::default(), [1, 1], &[("value", input)]).unwrap();
+    assert_eq!(outputs[0].1.as_u32(), [1064, 1065, 1066, 1067, 1068, 1069, 1070, 1071]);
+}
+
 static WRONG_ACCESS: Pass = pass("wrong_access", &ADD, SAME_SIZE, |cx| {
     let mut bind = add_one_bind(1);
     bind[2] = Bind::Read(Target::Port("sum"));
@@ -313,6 +355,12 @@ fn a_recipe_that_disagrees_with_its_kernel_is_a_problem_with_node_and_binding() 
         (&TOO_FEW, "too_few/add: add_one uses @group(0) @binding(2) sum, which the recipe does not bind"),
         (&WRITES_INPUT, "writes_input: pass add/writes_input writes value, which is not an output"),
         (&NAMES_NOTHING, "names_nothing: pass add/names_nothing names Port(\"total\"), which it does not have"),
+        (&UNIFORM_ASTRAY, "uniform_astray: pass add/uniform_astray binds words 60..68 of Scratch(0) as a uniform"),
+        (&UNIFORM_BEYOND, "uniform_beyond: pass add/uniform_beyond binds words 64..132 of Scratch(0) as a uniform"),
+        (
+            &UNIFORM_OF_PORT,
+            "uniform_of_port: pass add/uniform_of_port binds words 0..4 of Port(\"value\") as a uniform",
+        ),
         (&BAD_WGSL, "bad_wgsl/add: the kernel does not parse: error: "),
         (&NO_ENTRY, "no_entry/add: the kernel has no Compute entry point add_two; found add_one"),
         (&AS_TEXTURE, "as_texture: pass add/as_texture names Port(\"sum\") as a texture; expected a buffer"),

@@ -34,7 +34,11 @@ fn every_built_in_graph_plans_where_its_passes_run() {
         let wgpu = Overrides { default_backend: Backend::Wgpu, ..Overrides::default() };
         let (on_cpu, on_wgpu) = (plan_of(&graph, &Overrides::default()), plan_of(&graph, &wgpu));
         assert_eq!(on_cpu.is_ok(), name != "hard_draw", "{name}: {on_cpu:?}");
-        assert_eq!(on_wgpu.is_ok(), !name.starts_with("truth") && !["soft_shafts", "soft_silhouettes"].contains(&name), "{name}: {on_wgpu:?}");
+        assert_eq!(
+            on_wgpu.is_ok(),
+            !name.starts_with("truth") && !["soft_shafts", "soft_silhouettes"].contains(&name),
+            "{name}: {on_wgpu:?}"
+        );
     }
 }
 

@@ -1,9 +1,11 @@
 // Light samples as light_box.rs holds them: the middle of their box, its half extents, and places in it, four at a time; one workgroup.
 // Joined after the prelude.
+const LIGHT_BLOCK: u32 = 208u;
 @group(0) @binding(0) var<uniform> count: u32;
 @group(0) @binding(1) var<storage, read> light_samples: array<f32>;
-// Middle and largest distance from it; half extents and their sum; then xxxx, yyyy, zzzz of every four light samples, up to a multiple of 128, past the last that one again; then
-// the light samples as they are.
+// For each block of 256 light samples LIGHT_BLOCK vectors: the middle and the largest distance from it; half extents and their sum; then
+// xxxx, yyyy, zzzz of every four light samples, past the last that one again; then nothing, up to
+// where a uniform may start.
 @group(0) @binding(2) var<storage, read_write> light: array<vec4<f32>>;
 
 var<workgroup> lows: array<vec3<f32>, 64>;
@@ -44,23 +46,21 @@ fn light_box(@builtin(local_invocation_index) local: u32) {
     for (var other = 0u; other < GROUP; other++) {
         far = max(far, lows[other].x);
     }
-    if local == 0u {
-        light[0] = vec4<f32>(middle, far);
-        light[1] = vec4<f32>(half, half.x + half.y + half.z);
+    let blocks = (count + 255u) / 256u;
+    for (var block = local; block < blocks; block += GROUP) {
+        light[LIGHT_BLOCK * block] = vec4<f32>(middle, far);
+        light[LIGHT_BLOCK * block + 1u] = vec4<f32>(half, half.x + half.y + half.z);
     }
     let has_extent = half > vec3<f32>(0.0);
     let divisor = select(vec3<f32>(1.0), half, has_extent);
-    for (var four = local; four < (count + 127u) / 128u * 32u; four += GROUP) {
+    for (var four = local; four < blocks * 64u; four += GROUP) {
         let first = light_sample(4u * four) - middle;
         let second = light_sample(4u * four + 1u) - middle;
         let third = light_sample(4u * four + 2u) - middle;
         let fourth = light_sample(4u * four + 3u) - middle;
-        light[2u + 3u * four] = vec4<f32>(first.x, second.x, third.x, fourth.x) / divisor.x;
-        light[3u + 3u * four] = vec4<f32>(first.y, second.y, third.y, fourth.y) / divisor.y;
-        light[4u + 3u * four] = vec4<f32>(first.z, second.z, third.z, fourth.z) / divisor.z;
-    }
-    let first_sample = 2u + (count + 127u) / 128u * 96u;
-    for (var index = local; index < count; index += GROUP) {
-        light[first_sample + index] = vec4<f32>(light_sample(index), 0.0);
+        let place = four / 64u * LIGHT_BLOCK + 2u + 3u * (four % 64u);
+        light[place] = vec4<f32>(first.x, second.x, third.x, fourth.x) / divisor.x;
+        light[place + 1u] = vec4<f32>(first.y, second.y, third.y, fourth.y) / divisor.y;
+        light[place + 2u] = vec4<f32>(first.z, second.z, third.z, fourth.z) / divisor.z;
     }
 }

@@ -1,7 +1,7 @@
 // Which bin a plane falls in, as lu.rs says. Joined after soft_join.wgsl.
-@group(0) @binding(15) var<storage, read> lu: array<vec4<u32>>;
-@group(0) @binding(16) var<storage, read> lu_layout: array<f32>;
-@group(0) @binding(17) var<uniform> lu_size: u32;
+@group(0) @binding(17) var<storage, read> lu: array<vec4<u32>>;
+@group(0) @binding(18) var<storage, read> lu_layout: array<f32>;
+@group(0) @binding(19) var<uniform> lu_size: u32;
 
 const PI: f32 = 3.14159265;
 
@@ -15,6 +15,16 @@ fn angle(y: f32, x: f32) -> f32 {
     let octants = select(turn, 0.5 * PI - turn, abs(y) > abs(x));
     let half_turn = select(octants, PI - octants, x < 0.0);
     return select(half_turn, -half_turn, y < 0.0);
+}
+
+// The tables of the block's halves, of 128 light samples each; where there is no second half, the first once more.
+fn tables_of_block() -> vec2<u32> {
+    return min(vec2<u32>(2u * numbers.block, 2u * numbers.block + 1u), vec2<u32>((numbers.words - 1u) / 4u));
+}
+
+// A bit for each plane that may cut the light.
+fn planes_to_look_up(pair: Pair) -> u32 {
+    return select(bits_of(pair.cut), 15u, pair.winding == 0.0);
 }
 
 fn bin_of(share: f32) -> u32 {

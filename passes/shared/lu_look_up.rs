@@ -55,7 +55,7 @@ pub fn look_up(
 }
 
 /// The kernel's text around `kernel`, which defines `hidden_block` and declares the counters at binding 18.
-pub const fn pieces(kernel: &'static str) -> [&'static str; 9] {
+pub const fn pieces(kernel: &'static str) -> [&'static str; 10] {
     [
         PRELUDE,
         include_str!("predicate.wgsl"),
@@ -63,6 +63,7 @@ pub const fn pieces(kernel: &'static str) -> [&'static str; 9] {
         include_str!("soft_pair.wgsl"),
         include_str!("soft_sides.wgsl"),
         include_str!("soft_join.wgsl"),
+        include_str!("soft_each.wgsl"),
         include_str!("lu.wgsl"),
         kernel,
         include_str!("soft_doubts.wgsl"),

@@ -17,6 +17,19 @@ const EVALUATED: f32 = 2e-6;
 // And in two-float numbers, of the product of three lengths: 2^-40.
 const WIDE_ERROR: f32 = 9.1e-13;
 
+// The planes of a pair in f32 alone: a quick look, which leaves more in doubt. Without a winding it says nothing.
+fn quick_sides(pair: Pair, light: Light) -> Sides {
+    var scaled: array<vec4<f32>, 4>;
+    for (var k = 0u; k < 4u; k++) {
+        let range = dot(abs(pair.normals[k]), light.half);
+        let slack = pair.slack[k] + EVALUATED * (range + abs(pair.value[k]));
+        let scale = select(pair.winding / slack, 0.0, slack == 0.0);
+        let plane = vec4<f32>(pair.normals[k] * light.half, pair.value[k]) * scale;
+        scaled[k] = select(vec4<f32>(0.0, 0.0, 0.0, 2.0), plane, pair.cut[k]);
+    }
+    return Sides(scaled[0], scaled[1], scaled[2], scaled[3], false);
+}
+
 fn sides_of(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, receiver: Receiver, light: Light) -> Sides {
     var sides = Sides(vec4<f32>(0.0, 0.0, 0.0, 2.0), vec4<f32>(0.0, 0.0, 0.0, 2.0), vec4<f32>(0.0, 0.0, 0.0, 2.0),
         vec4<f32>(0.0, 0.0, 0.0, 2.0), false);
@@ -75,17 +88,33 @@ fn sides_of(pair: Pair, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, receiver: Rece
     return sides;
 }
 
-fn values_of(plane: vec4<f32>, x: vec4<f32>, y: vec4<f32>, z: vec4<f32>) -> vec4<f32> {
-    return plane.x * x + (plane.y * y + (plane.z * z + plane.w));
+fn lesser(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
+    return select(b, a, a < b);
 }
 
-// The smallest value over the planes at the four light samples `four`: above 1 surely inside, below -1 surely outside.
-fn least_of(sides: Sides, four: u32) -> vec4<f32> {
-    let x = light_words[2u + 3u * four];
-    let y = light_words[3u + 3u * four];
-    let z = light_words[4u + 3u * four];
-    return min(
-        min(values_of(sides.first, x, y, z), values_of(sides.second, x, y, z)),
-        min(values_of(sides.third, x, y, z), values_of(sides.front, x, y, z)),
+// The smallest value over the planes at four light samples: above 1 surely inside, below -1 surely outside.
+fn least_of(sides: Sides, at: Places) -> vec4<f32> {
+    return lesser(
+        lesser(values_at(sides.first, at), values_at(sides.second, at)),
+        lesser(values_at(sides.third, at), values_at(sides.front, at)),
     );
+}
+
+// Light samples 4 * four to 4 * four + 3 surely, and perhaps inside.
+fn four_found(sides: Sides, four: u32) -> vec2<u32> {
+    let least = least_of(sides, places_of(four));
+    return vec2<u32>(bits_of(least > vec4<f32>(1.0)), bits_of(least >= vec4<f32>(-1.0)));
+}
+
+// All planes at every light sample of the block.
+fn block_found(sides: Sides) -> Found {
+    var found = Found(NO_BITS, NO_BITS);
+    for (var word = 0u; word < word_count(); word++) {
+        var bits = vec2<u32>(0u);
+        for (var four = 0u; four < 8u; four++) {
+            bits |= four_found(sides, 8u * word + four) << vec2<u32>(4u * four);
+        }
+        found = Found(with_word(found.sure, word, bits.x), with_word(found.may, word, bits.y));
+    }
+    return found;
 }

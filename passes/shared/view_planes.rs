@@ -21,6 +21,9 @@ use super::pyramid::{cross, dot, size};
 /// 128 e: all of the above with room.
 const ERROR: f64 = 1.45e-14;
 
+/// How much further than the ball's radius a plane beside it passes.
+const BESIDE: f64 = 1e-6;
+
 /// Planes of one (view-sample, caster); the first three through the edges, the last the supporting plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planes {
@@ -105,6 +108,9 @@ pub fn hidden(caster: &Corners, position: [f32; 3], light: &LightBox, planes: &m
         return Hidden::Nothing;
     }
     let to_light = minus(light.middle, position);
+    if is_beside(&corners, to_light, light.radius) {
+        return Hidden::Nothing;
+    }
     let far = ERROR * (size(to_light) + reach);
     for k in 0..3 {
         let next = (k + 1) % 3;
@@ -118,6 +124,26 @@ pub fn hidden(caster: &Corners, position: [f32; 3], light: &LightBox, planes: &m
         }
     }
     if planes.cut == [false; 4] { Hidden::All } else { Hidden::Within }
+}
+
+/// Whether a plane through the view-sample, close to the ball around the light, has the corners beyond it: all three lines of a small
+/// caster may cut the light that it stands beside. Corners and the light's middle from the view-sample. Any normal would do: both sides
+/// are asked, with bounds on rounding.
+#[inline(always)]
+fn is_beside(corners: &[[f64; 3]; 3], to_light: [f64; 3], radius: f64) -> bool {
+    let [a, b, c] = corners;
+    let middle = [0, 1, 2].map(|axis| a[axis] + b[axis] + c[axis]);
+    let (square, along) = (dot(to_light, to_light), dot(middle, to_light));
+    let across = [0, 1, 2].map(|axis| middle[axis] * square - to_light[axis] * along);
+    let (tilt, rest) = (radius * (1.0 + BESIDE), square - radius * radius * (1.0 + 3.0 * BESIDE));
+    if rest <= 0.0 {
+        return false;
+    }
+    let share = tilt * (dot(across, across) / (square * rest)).sqrt();
+    let normal = [0, 1, 2].map(|axis| across[axis] - to_light[axis] * share);
+    let beyond = |corner: &[f64; 3]| dot(normal, *corner) > ERROR * size(normal) * size(*corner);
+    let light_side = dot(normal, to_light) + radius * dot(normal, normal).sqrt() * (1.0 + 1e-12);
+    beyond(a) && beyond(b) && beyond(c) && light_side < -ERROR * size(normal) * size(to_light)
 }
 
 /// A plane's sides of the light: -1 or 1 where all of it is on one, 0 where both sides or neither may be.

@@ -1,11 +1,12 @@
 //! The checks, one function each.
 
-use super::runs::{Values, compare};
+use super::runs::{Values, compare, compare_nodes};
 use super::{Check, Difference, Plans, Settings, Verdict};
 use crate::engine::Machine;
 use crate::job::Job;
 use crate::trial::Trial;
-use shadowgraph_core::plan::{Backend, Plan};
+use shadowgraph_core::pass::Contract;
+use shadowgraph_core::plan::{Backend, Node, Plan};
 use shadowgraph_core::problem::{Kind, Problem};
 use shadowgraph_cpu::Progress;
 use shadowgraph_wgpu::Options;
@@ -180,7 +181,8 @@ impl<'a> Ground<'a> {
         Ok(compare(&self.base, &other, self.job))
     }
 
-    /// Whole against in parts. Values by cell are those of a part, so only what has a row a view-sample or a pixel is compared.
+    /// Whole against in parts. Values by cell are those of a part, so only what has a row a view-sample or a pixel is compared; and not what
+    /// may hold more than it must, for how much more is a matter of the cells.
     fn ranges(&self, count: u32) -> Result<Verdict, Problem> {
         let fits = self.plans.kept.nodes.iter().find(|node| FITTED_TO_PARTS.contains(&node.pass.name));
         if let Some(node) = fits {
@@ -190,7 +192,8 @@ impl<'a> Ground<'a> {
         let [whole, parts] = [1, count].map(|ranges| self.machine.clone().in_ranges(ranges));
         let one = Values::run(&whole, self.plans.kept, self.job, &plain())?;
         let other = Values::run(&parts, self.plans.kept, self.job, &plain())?;
-        Ok(compare(&one, &other, self.job))
+        let is_firm = |node: &Node| !matches!(node.pass.contract, Contract::Superset);
+        Ok(compare_nodes(&one, &other, self.job, is_firm))
     }
 }
 

@@ -12,6 +12,7 @@ const KERNEL: &[&str] = &[
     include_str!("../../shared/soft_pair.wgsl"),
     include_str!("../../shared/soft_sides.wgsl"),
     include_str!("../../shared/soft_join.wgsl"),
+    include_str!("../../shared/soft_batch.wgsl"),
     include_str!("kernel.wgsl"),
     include_str!("../../shared/soft_doubts.wgsl"),
 ];
