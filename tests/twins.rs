@@ -245,7 +245,8 @@ pub fn controls() -> Vec<Trial> {
         assert!(mask_fault(&masks(0), &masks(8), 39, Contract::Exact, 1000).is_some());
         assert!(mask_fault(&masks(0), &masks(8), 39, Contract::Approximate, 1000).is_none());
         assert!(mask_fault(&masks(0), &masks(12), 39, Contract::Approximate, 1000).is_some());
-        let states = |ones: std::ops::Range<u32>| Array::u32([60], (0..60).map(|at| u32::from(ones.contains(&at))).collect());
+        let states =
+            |ones: std::ops::Range<u32>| Array::u32([60], (0..60).map(|at| u32::from(ones.contains(&at))).collect());
         assert!(states_fault(&states(9..20), &states(9..20)).is_none());
         assert!(states_fault(&states(9..20), &states(5..20)).is_none(), "a few more");
         assert!(states_fault(&states(9..20), &states(4..20)).is_some(), "too many more");

@@ -23,8 +23,12 @@ const BORDERS: &[&str] = &[
     include_str!("whole_side.wgsl"),
     include_str!("borders.wgsl"),
 ];
-const SAMPLES: &[&str] =
-    &[PRELUDE, include_str!("../../shared/predicate.wgsl"), include_str!("whole_side.wgsl"), include_str!("kernel.wgsl")];
+const SAMPLES: &[&str] = &[
+    PRELUDE,
+    include_str!("../../shared/predicate.wgsl"),
+    include_str!("whole_side.wgsl"),
+    include_str!("kernel.wgsl"),
+];
 
 /// Borders of a triangle: its edges and itself.
 const BORDERS_EACH: usize = 4;
