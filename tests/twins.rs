@@ -1,7 +1,7 @@
 //! CPU function against GPU recipe, node by node on equal inputs: a graph runs on the CPU with every value kept, then each node's
 //! recipe runs on the values its CPU function read, and the outputs are compared as the pass's contract says.
 
-use crate::bench::{job, job_lit, render_args};
+use crate::bench::{graph_file, job, job_lit, render_args};
 use crate::gpu;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::BackendChoice;
@@ -32,7 +32,6 @@ const GRAPHS: &[(&str, &[&str])] = &[
     ("soft_lu_planar", &[]),
     ("soft_certain", &[]),
     ("soft_penumbra", &[]),
-    ("soft_penumbra", &["lu_table=certain_uncertain", "visibility=lu_certain"]),
     ("rays", &[]),
     ("pcss", &[]),
     ("multi_shadow_map", &[]),
@@ -46,6 +45,8 @@ const SOFT: &[(&str, &[&str])] = &[
     ("pcss", &[]),
     ("multi_shadow_map", &[]),
 ];
+/// Files of `graphs/`, likewise.
+const FILES: &[&str] = &["penumbra_certain", "penumbra_lu"];
 const LIGHT: &[&str] = &["--light-samples", "33", "--light-radius", "0.3"];
 
 const SCENES: &[(&str, &str)] = &[
@@ -72,6 +73,13 @@ pub fn trials() -> Vec<Trial> {
         for (scene, size) in SCENES.iter().chain([&("builtin:light-inside", "40x30")]) {
             let name = name_of(graph, swaps, "/33 light samples", scene, size);
             trials.push(gpu::trial(name, move |session| twins(session, graph, swaps, &job_lit(scene, size, LIGHT))));
+        }
+    }
+    for graph in FILES {
+        for (scene, size) in SCENES.iter().chain([&("builtin:light-inside", "40x30")]) {
+            let name = name_of(graph, &[], "/33 light samples", scene, size);
+            let run = move |session: &_| twins(session, &graph_file(graph), &[], &job_lit(scene, size, LIGHT));
+            trials.push(gpu::trial(name, run));
         }
     }
     trials
