@@ -52,6 +52,11 @@ pub fn suggest_args(words: &[&str]) -> SuggestArgs {
     }
 }
 
+/// A graph of these tests, by its name in `graphs/`.
+pub fn graph_file(name: &str) -> String {
+    format!("{}/graphs/{name}.ron", env!("CARGO_MANIFEST_DIR"))
+}
+
 /// A scene at a picture size, with one light sample.
 pub fn job(scene: &str, size: &str) -> Job {
     job_lit(scene, size, &[])

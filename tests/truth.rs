@@ -1,6 +1,6 @@
 //! Hard shadows against exact predicates on the built-in failure scenes: no wrong bit on the CPU, at most one in 1e5 on a GPU.
 
-use crate::bench::{job, job_lit, verify_args};
+use crate::bench::{graph_file, job, job_lit, verify_args};
 use crate::gpu;
 use libtest_mimic::{Failed, Trial};
 use shadowgraph::args::VerifyArgs;
@@ -33,9 +33,13 @@ const GPU_SHARE: f64 = 1e-5;
 const EXACT_SOFT: &[&str] = &["soft", "soft_certain", "soft_penumbra"];
 /// Light of the scenes for them: two words of samples, and wide.
 const AREA_LIGHT: &[&str] = &["--light-samples", "40", "--light-radius", "0.3"];
-/// Graphs that answer by a table, and the light they do it for.
+/// A graph of `graphs/` that promises the same, on some scenes.
+const EXACT_FILE: &str = "penumbra_certain";
+const EXACT_FILE_SCENES: &[&str] = &["columns", "random-triangles?count=5000", "big-penumbra", "contact"];
+/// Graphs that answer by a table, of `graphs/` where they are named so, and the light they do it for.
 const LOOK_UP: &[(&str, &[&str])] = &[
     ("soft_lu", AREA_LIGHT),
+    ("penumbra_lu", AREA_LIGHT),
     ("soft_lu_planar", &["--light-samples", "128", "--light-shape", "disc", "--light-radius", "0.3"]),
 ];
 /// Scenes for them, and the share of bits that may be wrong at the default sizes: half as many again as the worst of them have.
@@ -66,11 +70,9 @@ pub fn trials() -> Vec<Trial> {
                 trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
             }
         }
-        {
-            let name = scene.clone();
-            let run = move || check_soft("soft_silhouettes", &name, "64x48", "cpu", 0.0);
-            trials.push(Trial::test(format!("truth/soft_silhouettes/{scene}/cpu"), run));
-        }
+        let name = scene.clone();
+        let run = move || check_soft("soft_silhouettes", &name, "64x48", "cpu", 0.0);
+        trials.push(Trial::test(format!("truth/soft_silhouettes/{scene}/cpu"), run));
         for (backend, size, share) in [("cpu", "160x120", 0.0), ("wgpu", "96x72", GPU_SHARE)] {
             let name = format!("truth/{}/{scene}/{backend}", INFLUENCE.join("+"));
             let scene = scene.clone();
@@ -78,11 +80,19 @@ pub fn trials() -> Vec<Trial> {
             trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
         }
     }
+    for scene in EXACT_FILE_SCENES {
+        for (backend, size, share) in [("cpu", "64x48", 0.0), ("wgpu", "40x30", GPU_SHARE)] {
+            let name = format!("truth/{EXACT_FILE}/{scene}/{backend}");
+            let run = move || check_soft(&graph_file(EXACT_FILE), scene, size, backend, share);
+            trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
+        }
+    }
     for (graph, light) in LOOK_UP {
         for (scene, share) in LOOK_UP_SCENES {
             for (backend, size) in [("cpu", "64x48"), ("wgpu", "40x30")] {
                 let name = format!("truth/{graph}/{scene}/{backend}");
-                let run = move || check_lit(&[graph], light, scene, size, backend, *share);
+                let words = if *graph == "penumbra_lu" { graph_file(graph) } else { graph.to_string() };
+                let run = move || check_lit(&[&words], light, scene, size, backend, *share);
                 trials.push(if backend == "cpu" { Trial::test(name, run) } else { gpu::trial(name, move |_| run()) });
             }
         }

@@ -21,7 +21,7 @@ pub fn trials() -> Vec<Trial> {
         ["hard", "hard_fused", "shadow_map", "pcf", "pcss", "multi_shadow_map", "soft", "soft_penumbra", "rays_soft"];
     let on = |graph: &'static str, choice| move || unchanged(graph, choice);
     let mut trials = Vec::new();
-    for graph in on_both.into_iter().chain(["soft_shafts", "truth_soft"]) {
+    for graph in on_both.into_iter().chain(["soft_shafts", "soft_silhouettes", "truth_soft"]) {
         trials.push(Trial::test(format!("contamination/{graph}/cpu"), on(graph, BackendChoice::Cpu)));
     }
     for graph in on_both.into_iter().chain(["hard_draw"]) {

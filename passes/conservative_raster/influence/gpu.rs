@@ -15,6 +15,7 @@ const REGIONS: &[&str] = &[
     include_str!("../../shared/face_light.wgsl"),
     include_str!("../../shared/hull.wgsl"),
     include_str!("../../shared/influence.wgsl"),
+    include_str!("../../shared/influence_store.wgsl"),
     include_str!("regions.wgsl"),
 ];
 

@@ -1,5 +1,5 @@
 // Influence regions of a range of casters into memory, one invocation for each caster and face. Joined after light_frame, face_light,
-// hull and influence.
+// hull, influence and influence_store.
 struct Numbers {
     triangles: u32,
     faces: u32,
@@ -13,12 +13,9 @@ struct Numbers {
 @group(0) @binding(1) var<storage, read> triangles: array<f32>;
 @group(0) @binding(2) var<storage, read> caster_state: array<u32>;
 @group(0) @binding(4) var<storage, read> light_frame: array<f32>;
-// See kernel.wgsl, which reads them.
-@group(0) @binding(5) var<storage, read_write> regions: array<vec4<f32>>;
 
 const QUAD: u32 = 1u;
 const CUT: u32 = 2u;
-const REGION_WORDS: u32 = 32u;
 
 fn corner_from_light(triangle: u32, corner: u32) -> vec3<f32> {
     let start = triangle * 9u + corner * 3u;
@@ -37,8 +34,7 @@ fn influence_regions(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let face = index / numbers.count;
     let triangle = numbers.first + index % numbers.count;
-    let start = index * REGION_WORDS;
-    regions[start] = vec4<f32>(0.0);
+    clear_region(index);
     if caster_state[triangle] == 0u || !light_valid(face) {
         return;
     }
@@ -50,20 +46,7 @@ fn influence_regions(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var caster = caster_at(a, b, c, has(CUT), !has(QUAD));
     var region = influence_region(&caster, face, numbers.faces, numbers.side, has(QUAD));
-    if !region.touched {
-        return;
-    }
-    regions[start] = vec4<f32>(f32(region.groups), region.near, region.least_q, region.reach);
-    regions[start + 1u] = vec4<f32>(vec2<f32>(region.first), vec2<f32>(region.last));
-    regions[start + 2u] = vec4<f32>(region.rooms, region.pad);
-    regions[start + 3u] = region.window;
-    for (var group = 0u; group < PLANE_GROUPS; group++) {
-        regions[start + 4u + group] = region.depth[group];
-        regions[start + 6u + group] = region.slack[group];
-    }
-    for (var group = 0u; group < region.groups; group++) {
-        regions[start + 8u + 3u * group] = region.u[group];
-        regions[start + 9u + 3u * group] = region.v[group];
-        regions[start + 10u + 3u * group] = region.one[group];
+    if region.touched {
+        store_region(index, &region);
     }
 }

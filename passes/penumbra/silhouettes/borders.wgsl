@@ -1,5 +1,5 @@
 // Influence regions of a range of borders into memory, one invocation for each and each face. Border 4 t + k is edge k of triangle t,
-// and triangle t itself for k = 3. Joined after light_frame, face_light, hull, influence and whole_side.
+// and triangle t itself for k = 3. Joined after light_frame, face_light, hull, influence, influence_store and whole_side.
 struct Numbers {
     triangles: u32,
     faces: u32,
@@ -12,8 +12,6 @@ struct Numbers {
 @group(0) @binding(1) var<storage, read> triangles: array<f32>;
 @group(0) @binding(2) var<storage, read> caster_state: array<u32>;
 @group(0) @binding(4) var<storage, read> light_frame: array<f32>;
-// See influence_walk.wgsl, which reads them.
-@group(0) @binding(5) var<storage, read_write> regions: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> triangle_across: array<u32>;
 @group(0) @binding(7) var<storage, read> light_box: array<vec4<f32>>;
 // 1 for each of all borders that there is.
@@ -21,7 +19,6 @@ struct Numbers {
 // Edges, silhouette edges, cut triangles, and others' counts.
 @group(0) @binding(9) var<storage, read_write> counters: array<atomic<u32>, 6>;
 
-const REGION_WORDS: u32 = 32u;
 const WHOLE: u32 = 3u;
 
 fn corner_of(triangle: u32, corner: u32) -> vec3<f32> {
@@ -71,8 +68,7 @@ fn border_regions(@builtin(global_invocation_id) id: vec3<u32>) {
     let border = numbers.first + index % numbers.count;
     let triangle = border / 4u;
     let k = border % 4u;
-    let start = index * REGION_WORDS;
-    regions[start] = vec4<f32>(0.0);
+    clear_region(index);
     var found = caster_state[triangle] != 0u;
     if found {
         found = is_border(triangle, k, face == 0u);
@@ -90,20 +86,7 @@ fn border_regions(@builtin(global_invocation_id) id: vec3<u32>) {
     let c = select(b, corner_of(triangle, 2u) - origin, k == WHOLE);
     var caster = caster_at(a, b, c, true, true);
     var region = influence_region(&caster, face, numbers.faces, numbers.side, false);
-    if !region.touched {
-        return;
-    }
-    regions[start] = vec4<f32>(f32(region.groups), region.near, region.least_q, region.reach);
-    regions[start + 1u] = vec4<f32>(vec2<f32>(region.first), vec2<f32>(region.last));
-    regions[start + 2u] = vec4<f32>(region.rooms, region.pad);
-    regions[start + 3u] = region.window;
-    for (var group = 0u; group < PLANE_GROUPS; group++) {
-        regions[start + 4u + group] = region.depth[group];
-        regions[start + 6u + group] = region.slack[group];
-    }
-    for (var group = 0u; group < region.groups; group++) {
-        regions[start + 8u + 3u * group] = region.u[group];
-        regions[start + 9u + 3u * group] = region.v[group];
-        regions[start + 10u + 3u * group] = region.one[group];
+    if region.touched {
+        store_region(index, &region);
     }
 }

@@ -1,6 +1,7 @@
 //! Borders, the cells that their regions touch, and the view-samples in these and near their own triangle's edges.
 
 use super::SUNK_ULPS;
+use crate::ports;
 use crate::shared::contact::step;
 use crate::shared::face_light::Bounds;
 use crate::shared::influence::face_lights;
@@ -14,6 +15,7 @@ use crate::shared::view_planes::side_of_light;
 use rayon::prelude::*;
 use shadowgraph_core::array::Array;
 use shadowgraph_core::cpu::CpuCx;
+use shadowgraph_core::input;
 use shadowgraph_core::problem::Problem;
 use shadowgraph_core::shared::{KEPT, NO_CELL};
 
@@ -85,25 +87,30 @@ fn is_sunk(position: [f32; 3], own: &Corners, side: i32) -> bool {
 
 /// The CPU function.
 pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
-    let triangles: &[Corners] = bytemuck::cast_slice(cx.input("triangles").as_f32());
-    let across: &[[u32; 3]] = bytemuck::cast_slice(cx.input("across").as_u32());
-    let samples = cx.input("light_samples").as_vec3();
+    let triangles: &[Corners] = bytemuck::cast_slice(cx.input(input::TRIANGLES.name).as_f32());
+    let across: &[[u32; 3]] = bytemuck::cast_slice(cx.input(ports::ACROSS.name).as_u32());
+    let samples = cx.input(input::LIGHT_SAMPLES.name).as_vec3();
+    let sample_count = cx.input(ports::POSITION.name).dim(0);
+    if triangles.is_empty() || samples.is_empty() || sample_count == 0 {
+        cx.put(ports::PENUMBRA_STATE.name, Array::u32([sample_count], vec![0; sample_count]));
+        return Ok(());
+    }
     let light = LightBox::new(samples);
-    let borders = Borders::new(triangles, cx.input("caster_state").as_u32(), across, &light);
+    let borders = Borders::new(triangles, cx.input(ports::CASTER_STATE.name).as_u32(), across, &light);
 
     // Cells that a border's region touches.
     let faces = sides(cx);
     let lights = face_lights(&faces, samples, SHAPE, BOUNDS);
-    let list_length = cx.input("list_length").as_u32();
-    let list_far = cx.input("list_far").as_f32();
+    let list_length = cx.input(ports::LIST_LENGTH.name).as_u32();
+    let list_far = cx.input(ports::LIST_FAR.name).as_f32();
     let marks = mark_cells(&borders.triangles, &faces, list_length, list_far, |index, border| {
         let side = &faces[index];
         lights[index].region(&side.space.corners(border), &side.grid)
     });
 
     // View-samples in these, in no cell, or parted by their own triangle.
-    let (position, own) = (cx.input("position").as_vec3(), cx.input("triangle").as_u32());
-    let (state, cell) = (cx.input("sample_state").as_u32(), cx.input("cell").as_u32());
+    let (position, own) = (cx.input(ports::POSITION.name).as_vec3(), cx.input(ports::TRIANGLE.name).as_u32());
+    let (state, cell) = (cx.input(ports::SAMPLE_STATE.name).as_u32(), cx.input(ports::CELL.name).as_u32());
     let is_partial = |row: usize| {
         state[row] == KEPT
             && (cell[row] == NO_CELL
@@ -119,6 +126,6 @@ pub fn run(cx: &mut CpuCx) -> Result<(), Problem> {
     cx.count("cells", list_length.iter().filter(|length| **length > 0).count() as u64);
     cx.count("penumbra_cells", marks.iter().map(|mark| u64::from(*mark)).sum());
     cx.count("partial_samples", states.iter().map(|state| u64::from(*state)).sum());
-    cx.put("penumbra_state", Array::u32([states.len()], states));
+    cx.put(ports::PENUMBRA_STATE.name, Array::u32([states.len()], states));
     Ok(())
 }

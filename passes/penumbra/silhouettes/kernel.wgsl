@@ -1,10 +1,12 @@
-// One invocation a view-sample, and one a cell, which is counted. Joined after whole_side.wgsl.
+// One invocation a view-sample, and one a cell, which is counted. Joined after predicate.wgsl and whole_side.wgsl.
 struct Numbers {
     samples: u32,
     cells: u32,
     triangles: u32,
     // SUNK_ULPS units in the last place, as a share of the largest coordinate.
     step: f32,
+    // See predicate.wgsl.
+    zero: u32,
 }
 @group(0) @binding(0) var<uniform> numbers: Numbers;
 @group(0) @binding(1) var<storage, read> triangles: array<f32>;
@@ -28,25 +30,35 @@ fn largest(a: vec3<f32>) -> f32 {
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-fn corner_of(triangle: u32, corner: u32) -> vec3<f32> {
-    let start = triangle * 9u + corner * 3u;
-    return vec3<f32>(triangles[start], triangles[start + 1u], triangles[start + 2u]);
+fn opaque_zero() -> u32 {
+    return numbers.zero;
+}
+
+// Whether a view-sample is further below its own plane (a, b, c) than rounding leaves it; `side` as of `whole_side`. A step along every
+// axis raises it by no more than the step that leaves it be, so what is below the plane even then is: all that is_sunk of cpu.rs
+// finds is found. A quarter of the step is left to rounding of the sums.
+fn is_sunk(place: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, side: f32) -> bool {
+    let plane = plane_of(a, b, c);
+    let offset = place - a;
+    let below = 0.75 * numbers.step * max(max(largest(a), largest(b)), max(largest(c), largest(place)));
+    // Each coordinate of the normal errs by the slack.
+    let least = max(sum_of_sizes(plane.normal) - 3.0 * plane.slack, 0.0);
+    if side * dot(plane.normal, offset) - plane.slack * sum_of_sizes(offset) >= -below * least {
+        return false;
+    }
+    return side * orientation(a, b, c, place + side * below * sign(plane.normal)) > 0.0;
 }
 
 // Whether the triangle that a view-sample lies on may part the light for it.
 fn own_parts(place: vec3<f32>, own: u32) -> bool {
-    let a = corner_of(own, 0u);
-    let b = corner_of(own, 1u);
-    let c = corner_of(own, 2u);
+    let a = triangle_corner(own, 0u);
+    let b = triangle_corner(own, 1u);
+    let c = triangle_corner(own, 2u);
     let side = whole_side(a, b, c);
     if side == 0.0 || whole_side(place, a, b) == 0.0 || whole_side(place, b, c) == 0.0 || whole_side(place, c, a) == 0.0 {
         return true;
     }
-    // Further below its own plane than rounding leaves it.
-    let plane = plane_of(a, b, c);
-    let offset = place - a;
-    let below = numbers.step * max(max(largest(a), largest(b)), max(largest(c), largest(place)));
-    return side * dot(plane.normal, offset) < -below * sum_of_sizes(plane.normal) - plane.slack * sum_of_sizes(offset);
+    return is_sunk(place, a, b, c, side);
 }
 
 fn is_partial(sample: u32) -> bool {

@@ -17,7 +17,7 @@
 //!
 //! **The own triangle** is left out by every test, so its edges are borders to what lies on it: state 1 where the plane through the
 //! view-sample and such an edge may cut B, which is within rounding of the edge, or where its own plane may. A view-sample in no cell
-//! has state 1.
+//! has state 1. Without triangles, light samples or view-samples every state is 0 and nothing is counted.
 //!
 //! **Superset.** Planes are decided by bounds on rounding, regions as `conservative_raster/influence` does. State 0 is exact on the
 //! stored bits with one exception, the coplanar rule ([`crate::shared::predicate::OwnPlane`]): a view-sample that rounding has left
@@ -37,6 +37,7 @@ mod gpu;
 #[cfg(test)]
 mod tests;
 
+use crate::ports;
 use shadowgraph_core::pass::{Contract, Counter, CounterKind, Feature, Pass};
 use shadowgraph_core::size::SizeCx;
 
@@ -75,5 +76,5 @@ pub static PASS: Pass = Pass {
 };
 
 fn size(cx: &SizeCx) -> Vec<(&'static str, Vec<usize>)> {
-    vec![("penumbra_state", vec![cx.dim("position", 0)])]
+    vec![(ports::PENUMBRA_STATE.name, vec![cx.dim(ports::POSITION.name, 0)])]
 }

@@ -380,3 +380,38 @@ fn the_region_of_an_edge_holds_all_that_is_behind_it() {
     println!("{asked} view-samples behind edges; a region touches {touched} of {all} cells");
     assert!(asked > 5000 && 2 * touched < all, "{asked} {touched} {all}");
 }
+
+#[test]
+fn bounds_of_whole_side_are_those_of_pyramids() {
+    let [side, pyramid] = [include_str!("whole_side.wgsl"), include_str!("../../shared/pyramid.wgsl")];
+    let value = |text: &str, name: &str| {
+        let found = text.lines().find_map(|line| line.strip_prefix(&format!("const {name}: f32 = ")));
+        found.map(|value| value.trim_end_matches(';').to_string()).expect("a constant")
+    };
+    assert_eq!(value(side, "PLANE_ROUNDING"), value(pyramid, "ROUNDING"));
+    // The function that they bound.
+    for line in
+        ["let left = {p}.yzx * {q}.zxy;", "let right = {p}.zxy * {q}.yzx;", "let size = abs(left) + abs(right);"]
+    {
+        let of = |p: &str, q: &str| line.replace("{p}", p).replace("{q}", q);
+        assert!(side.contains(&of("p", "q")) && pyramid.contains(&of("a", "b")), "{line}");
+    }
+    let bound = "ROUNDING * max(size.x, max(size.y, size.z))";
+    assert!(side.contains(bound) && pyramid.contains(bound));
+}
+
+#[test]
+fn nothing_to_look_at_has_state_zero_and_no_count() {
+    for empty in ["triangles", "light_samples", "position"] {
+        let mut case = closed(3, 40);
+        match empty {
+            "triangles" => (case.case.triangles, case.case.casts) = (Vec::new(), Vec::new()),
+            "light_samples" => case.samples.clear(),
+            _ => (case.case.position, case.case.triangle, case.case.state) = (Vec::new(), Vec::new(), Vec::new()),
+        }
+        let (outputs, counts) = run(&PASS, &inputs(&case)).unwrap();
+        let states = output(&outputs, "penumbra_state").as_u32();
+        assert_eq!(states, vec![0; case.case.position.len()], "{empty}");
+        assert!(counts.iter().all(|count| *count == 0), "{empty}: {counts:?}");
+    }
+}

@@ -21,29 +21,29 @@
 //!
 //! Departs from the papers: no lists, no table, no influence region, and a shaft is divided on either side.
 //!
-//! What was found on two threads of an AVX-512 machine, in processor time of the pass:
-//! - a closure handed to `array::map` is compiled without the instruction set around it: writing such steps out more than halved
-//!   the time;
-//! - near its own view-samples a group's bounds are wide: three quarters of the pairs at the leaves were casters that no single
-//!   view-sample's cone meets. Looking once, view-sample by view-sample, takes a fifth off;
-//! - own triangles asked about for each group instead of once for the cluster: a third less where tiles hold many of them;
-//! - bounds on rounding by lengths instead of sums of coordinates: two thirds of the exact pairs and a sixth of the time less;
-//! - a plane of equal x, y or z is asked by a comparison where floors and walls made the exact predicate's longest way common, and own planes
+//! Why so, with figures of two threads of an AVX-512 machine, in processor time of the pass:
+//! - steps are written out, for a closure handed to `array::map` is compiled without the instruction set around it, and takes more than
+//!   twice the time;
+//! - casters are looked at view-sample by view-sample once before the leaves: near its own view-samples a group's bounds are wide, and three
+//!   quarters of the pairs at the leaves would be casters that no single view-sample's cone meets. It takes a fifth off;
+//! - own triangles are asked about once for the cluster, not for each group: a third less where tiles hold many of them;
+//! - bounds on rounding are by lengths, not by sums of coordinates: two thirds of the exact pairs and a sixth of the time less;
+//! - a plane of equal x, y or z is asked by a comparison, for floors and walls would go the exact predicate's longest way, and own planes
 //!   are asked sixteen at once: a third of the apartment's time, a sixth of Sponza's;
-//! - a tree and neighbours made for this pass, not for rays: 45 ms instead of 210 on the apartment;
-//! - casters sorted by what they hide, once for the cluster: half of the apartment's pairs at the leaves; the wrong order costs ten times as many;
-//! - once all that was done, joining all casters of a shaft into patches cost as much as it saved on all but closed fine meshes. Following
-//!   only the patch in the way of one segment costs a quarter of that: a quarter to two fifths off the bunny, the torus knot and Sponza seen from near,
-//!   nothing lost on hair;
-//! - ray packets instead of the leaves' triangles: a quarter off hair and Sponza, a third off the apartment overview. They were expected
-//!   to take half; what is left is the search for the few casters in the way of each view-sample, and on coarse meshes packets lose;
-//! - at the leaves, a bit for each light sample or'd into the view-samples' lanes instead of masks stored light by light and read
-//!   back: a quarter of the leaves' time, expected nearly half;
-//! - masks kept light by light and turned, thirty-two bits at once, when written, instead of bit by bit: all but 5 of 34 ms of 1024 light samples;
-//! - the lights' order found by halving intervals and compressing registers instead of selecting among points: two thirds of the 40 ms
-//!   that 1024 light samples took, expected nine tenths;
-//! - for 1024 light samples, holding each caster against sixteen boxes of light samples at once instead of sixteen casters against each
-//!   box: expected to halve packets; it lost a seventh on columns, as the tests segment by segment are what costs, and went.
+//! - the tree and neighbours are made for this pass, not for rays: 45 ms, not 210, on the apartment;
+//! - casters are sorted by what they hide, once for the cluster: half of the apartment's pairs at the leaves; the wrong order costs ten times
+//!   as many;
+//! - only the patch in the way of one segment is followed: to join all casters of a shaft costs four times as much, which is what it saves
+//!   on all but closed fine meshes. A quarter to two fifths off the bunny, the torus knot and Sponza seen from near, nothing lost on hair;
+//! - ray packets take a quarter off hair and Sponza, a third off the apartment overview. What is left is the search for the few casters in
+//!   the way of each view-sample, and on coarse meshes packets lose;
+//! - at the leaves, a bit for each light sample is or'd into the view-samples' lanes: a quarter of the leaves' time less than storing masks
+//!   light by light and reading them back;
+//! - masks are kept light by light and turned, thirty-two bits at once, when written: 5 ms for 1024 light samples, where bit by bit is 34;
+//! - the lights' order is found by halving intervals and compressing registers: a third of the 40 ms that selecting among points takes for
+//!   1024 light samples;
+//! - sixteen casters are held against each box of light samples: with 1024 light samples, each caster against sixteen boxes at once loses a
+//!   seventh on columns, as the tests segment by segment are what costs.
 
 mod candidates;
 mod cluster;

@@ -335,12 +335,13 @@ impl OwnPlanes {
         let mut last = (NONE, u32::from(u16::MAX));
         for (lane, allowed) in allowed.iter_mut().enumerate() {
             // Filling repeats the last view-sample.
-            let at = self.of_view[(views + lane).min(self.of_view.len() - 1)];
+            let view = (views + lane).min(self.of_view.len() - 1);
+            let at = self.of_view[view];
             if at != last.0 {
-                let admits = match self.admits(row, (views + lane).min(self.of_view.len() - 1)) {
+                let admits = match self.admits(row, view) {
                     Admits::All => u16::MAX,
                     Admits::None => 0,
-                    Admits::Some => self.allowed_lights(simd, world, row, views + lane, lights, light),
+                    Admits::Some => self.allowed_lights(simd, world, row, view, lights, light),
                 };
                 last = (at, u32::from(admits));
             }

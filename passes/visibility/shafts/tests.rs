@@ -1,4 +1,5 @@
 mod borders;
+mod halving;
 
 use super::cpu::{Receivers, answer};
 use super::patches::Choice;

@@ -5,34 +5,28 @@
 //!
 //! Joined casters that balance at an edge make a **sheet**. A sheet that has no border across a view-sample's light and one of whose casters
 //! stands before the chosen light sample stands before all of them, whatever layers there are behind it.
-//!
-//! How many joined casters a segment to the chosen light sample c meets is counted once, from the cell's origin o. From there
-//! to view-sample v it changes by the jumps of those borders that pass through the triangle (o, v, c): the edge from a to b does when
-//! det(a, b, o, v), det(a, b, v, c) and det(a, b, c, o) agree in sign and a and b are on different sides of the triangle's plane. No joined
-//! caster's plane is between o and v, and none reaches as far as the light: nothing else can change the number.
 
 use super::LANES;
 use super::cell::Cell;
-use super::meet::{Met, View, answer, beside, bits, cross, dot};
-use crate::shared::predicate;
+use super::meet::{View, bits};
 use crate::shared::soft::Soft;
 use fearless_simd::{Simd, SimdBase, f32x16};
 
 /// Sixteen borders from the cell's origin, by lane.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-struct Block {
+pub(super) struct Block {
     /// The lesser end.
-    from: [[f32; LANES]; 3],
+    pub(super) from: [[f32; LANES]; 3],
     /// From the lesser end to the other.
-    line: [[f32; LANES]; 3],
+    pub(super) line: [[f32; LANES]; 3],
     /// `from` x `line`.
-    plane: [[f32; LANES]; 3],
+    pub(super) plane: [[f32; LANES]; 3],
     /// `plane` . the chosen light sample.
-    chosen: [f32; LANES],
+    pub(super) chosen: [f32; LANES],
     /// As that of casters.
-    slack: [f32; LANES],
-    reach: [f32; LANES],
+    pub(super) slack: [f32; LANES],
+    pub(super) reach: [f32; LANES],
 }
 
 const EMPTY: Block = Block {
@@ -47,14 +41,14 @@ const EMPTY: Block = Block {
 /// Borders are worth while where they are fewer than this share of the casters that they stand for.
 const SHARE: f32 = 0.75;
 /// As in `cell`.
-const SLACK: f32 = 4e-6;
+pub(super) const SLACK: f32 = 4e-6;
 
 /// An edge where joined casters end.
 #[derive(Clone, Copy, Debug)]
-struct Border {
-    edge: u32,
+pub(super) struct Border {
+    pub(super) edge: u32,
     /// Up to two sheets that end there, and the jump of each; zero: none.
-    sheets: [(u32, i32); 2],
+    pub(super) sheets: [(u32, i32); 2],
 }
 
 /// No caster.
@@ -67,37 +61,27 @@ pub struct Borders {
     pub joined: Vec<u16>,
     /// Whether any caster is joined.
     pub is_used: bool,
-    blocks: Vec<Block>,
-    borders: Vec<Border>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) borders: Vec<Border>,
     /// By slot: a slot of the same sheet nearer to the one that names it.
     sheet: Vec<u32>,
     /// By slot that names a sheet: its number.
     number: Vec<u32>,
-    /// By edge: a slot that nothing balances yet, its jump, and whether `more` may hold others.
-    open: Vec<(u32, i32, bool)>,
-    /// More of the same edge.
-    more: Vec<(u32, u32, i32)>,
+    /// By edge: the last slot that nothing balances yet, its jump, and the place in `more` of the one before it.
+    open: Vec<(u32, i32, u32)>,
+    /// Slots that nothing balances yet, of the jump of the last one of their edge, and the place of the one before.
+    more: Vec<(u32, u32)>,
     /// By sheet: casters before the chosen light sample, at the origin and at the view-sample at hand.
-    count: Vec<i32>,
-    now: Vec<i32>,
+    pub(super) count: Vec<i32>,
+    pub(super) now: Vec<i32>,
     /// By sheet: whether a border may be across the light.
-    is_cut: Vec<bool>,
+    pub(super) is_cut: Vec<bool>,
     /// The chosen light sample from the origin.
-    chosen: [f32; 3],
-    chosen_reach: f32,
+    pub(super) chosen: [f32; 3],
+    pub(super) chosen_reach: f32,
 }
 
-/// What a view-sample's borders say.
-pub enum Joined {
-    /// A sheet hides all of the light.
-    Covers,
-    /// So many joined casters stand before the chosen light sample.
-    Count(i32),
-    /// A border may be at the way: they have to be counted one by one.
-    Doubt,
-}
-
-fn size([x, y, z]: [f32; 3]) -> f32 {
+pub(super) fn size([x, y, z]: [f32; 3]) -> f32 {
     x.abs() + y.abs() + z.abs()
 }
 
@@ -116,7 +100,7 @@ impl Borders {
         self.joined.clear();
         self.more.clear();
         self.open.clear();
-        self.open.resize(cell.ends.len(), (NONE, 0, false));
+        self.open.resize(cell.ends.len(), (NONE, 0, NONE));
         self.sheet.clear();
         self.sheet.extend(0..cell.slots.len() as u32);
         let [low, high] = cell.views;
@@ -140,23 +124,9 @@ impl Borders {
                 self.balance(cell, (LANES * at) as u32 + lane, facing);
             }
         }
-        for (edge, &(slot, jump, _)) in (0u32..).zip(&self.open) {
-            if slot != NONE {
-                self.borders.push(Border { edge, sheets: [(slot, jump), (0, 0)] });
-            }
-        }
-        for &(edge, slot, jump) in &self.more {
-            // In the order of edges: the lists above are.
-            let at = self.borders.partition_point(|border| border.edge < edge);
-            match self.borders.get_mut(at) {
-                Some(border) if border.edge == edge && border.sheets[1].1 == 0 => border.sheets[1] = (slot, jump),
-                _ => self.borders.insert(at, Border { edge, sheets: [(slot, jump), (0, 0)] }),
-            }
-        }
-        if count == 0
-            || self.borders.len() as f32 > SHARE * count as f32
-            || !self.count_from_origin(simd, soft, cell, chosen)
-        {
+        let limit = SHARE * count as f32;
+        self.list(limit);
+        if count == 0 || self.borders.len() as f32 > limit || !self.count_from_origin(simd, soft, cell, chosen) {
             self.joined.fill(0);
             self.borders.clear();
             return;
@@ -178,22 +148,38 @@ impl Borders {
     fn balance(&mut self, cell: &Cell, slot: u32, facing: i32) {
         for edge in cell.slots[slot as usize].edges {
             let jump = if edge % 2 == 0 { facing } else { -facing };
-            let (other, of_other, is_more) = self.open[edge as usize / 2];
-            if other == NONE || of_other == jump {
-                if other != NONE {
-                    self.more.push((edge / 2, other, of_other));
+            let (other, of_other, before) = self.open[edge as usize / 2];
+            self.open[edge as usize / 2] = if other == NONE {
+                (slot, jump, NONE)
+            } else if of_other == jump {
+                self.more.push((other, before));
+                (slot, jump, self.more.len() as u32 - 1)
+            } else {
+                let (a, b) = (self.root(other), self.root(slot));
+                self.sheet[a.max(b) as usize] = a.min(b);
+                match self.more.get(before as usize) {
+                    Some(&(waiting, before)) => (waiting, of_other, before),
+                    None => (NONE, 0, NONE),
                 }
-                self.open[edge as usize / 2] = (slot, jump, is_more || other != NONE);
-                continue;
-            }
-            let (a, b) = (self.root(other), self.root(slot));
-            self.sheet[a.max(b) as usize] = a.min(b);
-            // Another that was waiting takes its place.
-            let waiting = if is_more { self.more.iter().position(|(waiting, ..)| *waiting == edge / 2) } else { None };
-            self.open[edge as usize / 2] = match waiting.map(|at| self.more.swap_remove(at)) {
-                Some((_, slot, jump)) => (slot, jump, true),
-                None => (NONE, 0, false),
             };
+        }
+    }
+
+    /// Lists what is left open, in the order of edges and two sheets to a border; stops past `limit`.
+    fn list(&mut self, limit: f32) {
+        for (edge, &(mut slot, jump, mut before)) in (0u32..).zip(&self.open) {
+            let mut is_even = true;
+            while slot != NONE {
+                if self.borders.len() as f32 > limit {
+                    return;
+                }
+                match self.borders.last_mut() {
+                    Some(last) if !is_even => last.sheets[1] = (slot, jump),
+                    _ => self.borders.push(Border { edge, sheets: [(slot, jump), (0, 0)] }),
+                }
+                is_even = !is_even;
+                (slot, before) = self.more.get(before as usize).copied().unwrap_or((NONE, NONE));
+            }
         }
     }
 
@@ -254,127 +240,6 @@ impl Borders {
         }
         is_sure
     }
-
-    /// Tells of each joined caster between `view` and its chosen light sample; none where that is on a border of one.
-    #[inline(always)]
-    pub fn count_at<S: Simd>(
-        &self,
-        simd: S,
-        soft: &Soft,
-        cell: &Cell,
-        view: &View,
-        mut tell: impl FnMut(u32),
-    ) -> Option<()> {
-        for (at, joined) in self.joined.iter().enumerate() {
-            if *joined == 0 {
-                continue;
-            }
-            let answer = simd.vectorize(
-                #[inline(always)]
-                || answer(simd, &cell.blocks[at], *joined, view),
-            );
-            let Some(answer) = answer else { continue };
-            let sure = answer.facing[0] | answer.facing[1];
-            let mut before = joined & sure & answer.chosen[0] & !answer.beside;
-            while before != 0 {
-                tell((LANES * at) as u32 + before.trailing_zeros());
-                before &= before - 1;
-            }
-            let mut doubts = joined & !(sure & (answer.chosen[0] | answer.chosen[1] | answer.beside)) & !answer.beyond;
-            while doubts != 0 {
-                let slot = (LANES * at) as u32 + doubts.trailing_zeros();
-                doubts &= doubts - 1;
-                let caster = &soft.triangles[cell.slots[slot as usize].triangle as usize];
-                if strictly(caster, view.position, soft.light.samples[view.sample])? {
-                    tell(slot);
-                }
-            }
-        }
-        Some(())
-    }
-
-    /// Adds the borders that may be across the light to those met, and counts at the light sample that casters were joined for.
-    #[inline(always)]
-    pub fn meet<S: Simd>(&mut self, simd: S, view: &View, met: &mut Met) -> Joined {
-        let mut is_sure = true;
-        self.now.clear();
-        self.now.extend_from_slice(&self.count);
-        self.is_cut.clear();
-        self.is_cut.resize(self.count.len(), false);
-        let [q, c] = [view.place, self.chosen];
-        let way = [q[1] * c[2] - q[2] * c[1], q[2] * c[0] - q[0] * c[2], q[0] * c[1] - q[1] * c[0]];
-        let is_origin = q == [0.0; 3];
-        for (at, block) in self.blocks.iter().enumerate() {
-            let lanes = (self.borders.len() - LANES * at).min(LANES);
-            let lanes = if lanes == LANES { u16::MAX } else { (1 << lanes) - 1 };
-            let [touched, rise, fall, doubts] = simd.vectorize(
-                #[inline(always)]
-                || self.sides(simd, block, view, way),
-            );
-            let mut touched = touched & lanes;
-            while touched != 0 {
-                let border = self.borders[LANES * at + touched.trailing_zeros() as usize];
-                touched &= touched - 1;
-                met.touch(border.edge, border.sheets[0].1 + border.sheets[1].1, true);
-                for (sheet, jump) in border.sheets {
-                    self.is_cut[sheet as usize] |= jump != 0;
-                }
-            }
-            if is_origin {
-                continue;
-            }
-            is_sure &= doubts & lanes == 0;
-            let mut crossed = (rise | fall) & lanes;
-            while crossed != 0 {
-                let lane = crossed.trailing_zeros() as usize;
-                crossed &= crossed - 1;
-                for (sheet, jump) in self.borders[LANES * at + lane].sheets {
-                    self.now[sheet as usize] += if rise >> lane & 1 == 1 { jump } else { -jump };
-                }
-            }
-        }
-        if !is_sure {
-            return Joined::Doubt;
-        }
-        let covers = |(count, is_cut): (&i32, &bool)| *count > 0 && !is_cut;
-        if self.now.iter().zip(&self.is_cut).any(covers) {
-            Joined::Covers
-        } else {
-            Joined::Count(self.now.iter().sum())
-        }
-    }
-
-    /// Borders that may be across the light; through the way's triangle towards the side of c, and away from it; and those in doubt.
-    #[inline(always)]
-    fn sides<S: Simd>(&self, simd: S, block: &Block, view: &View, way: [f32; 3]) -> [u16; 4] {
-        let row = |row: &[f32; LANES]| f32x16::from_slice(simd, row);
-        let from = [row(&block.from[0]), row(&block.from[1]), row(&block.from[2])];
-        let line = [row(&block.line[0]), row(&block.line[1]), row(&block.line[2])];
-        let plane = [row(&block.plane[0]), row(&block.plane[1]), row(&block.plane[2])];
-        let (slack, reach) = (row(&block.slack), row(&block.reach));
-        let start = [from[0] - view.place[0], from[1] - view.place[1], from[2] - view.place[2]];
-        let beside = beside(simd, view, start, [line], reach);
-        let normal = cross(start, line);
-        let value = dot(normal, view.middle);
-        let square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        let far = (value.abs() - slack * view.middle_reach).max(f32x16::splat(simd, 0.0));
-        let apart = bits((far * far).simd_gt(square * view.radius_square));
-
-        let signs = |value: f32x16<S>, slack: f32x16<S>| [bits(value.simd_gt(slack)), bits(value.simd_lt(-slack))];
-        let near = size(view.place);
-        let [a, c, e] = [
-            signs(dot(plane, view.place), slack * near),
-            signs(dot(normal, view.chosen), slack * view.chosen_reach),
-            signs(-row(&block.chosen), slack * self.chosen_reach),
-        ];
-        let way_slack = reach * (SLACK * near * self.chosen_reach);
-        let (at_from, step) = (dot(from, way), dot(line, way));
-        let [f, t] = [signs(at_from, way_slack), signs(at_from + step, way_slack)];
-        let through = f[0] & t[1] | f[1] & t[0];
-        let (rise, fall) = (through & a[0] & c[0] & e[0], through & a[1] & c[1] & e[1]);
-        let none = f[0] & t[0] | f[1] & t[1] | (a[0] | c[0] | e[0]) & (a[1] | c[1] | e[1]);
-        [!apart & !beside, rise, fall, !(none | rise | fall)]
-    }
 }
 
 /// Casters of block `at` whose plane is surely below all view-samples of the cell, and those whose plane is above.
@@ -389,15 +254,4 @@ fn facing<S: Simd>(simd: S, cell: &Cell, at: usize, middle: [f32; 3], half: [f32
     let spread = normal[0].abs() * half[0] + normal[1].abs() * half[1] + normal[2].abs() * half[2];
     let width = spread * (1.0 + 1e-6) + row(&block.facing_slack);
     [bits(w.simd_gt(width)), bits(w.simd_lt(-width))]
-}
-
-/// Whether `caster` is between `position` and `light`; none where the segment meets its border.
-pub fn strictly(caster: &predicate::Corners, position: [f32; 3], light: [f32; 3]) -> Option<bool> {
-    let [a, b, c] = *caster;
-    let w = predicate::side(caster, position);
-    let signs = [[a, b], [b, c], [c, a]].map(|[from, to]| w * predicate::side(&[light, from, to], position));
-    match signs.into_iter().min() {
-        Some(0) => None,
-        least => Some(least == Some(1)),
-    }
 }

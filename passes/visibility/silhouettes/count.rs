@@ -8,7 +8,7 @@
 //!
 //! Counters are bits of binary numbers, a word of light samples at a time; what overflows comes back, for no count is negative in the end.
 
-use super::borders::strictly;
+use super::ask::strictly;
 use super::cell::Cell;
 use super::meet::{Met, View};
 use crate::shared::light_box::LightBox;

@@ -76,14 +76,15 @@ pub fn masks(soft: &Soft, edges: &Edges, level: Level, progress: &(dyn Fn(u64, u
 }
 
 /// The light sample nearest the middle, and others.
-fn choices(light: &LightBox) -> Vec<usize> {
+pub(super) fn choices(light: &LightBox) -> Vec<usize> {
     let distance = |at: &usize| {
         let sample = light.samples[*at];
         (0..3).map(|k| (f64::from(sample[k]) - f64::from(light.middle[k])).powi(2)).sum::<f64>()
     };
     let count = light.samples.len();
     let nearest = (0..count).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-    (0..CHOICES.min(count)).map(|k| (nearest + k * count / CHOICES) % count).collect()
+    let choices = CHOICES.min(count);
+    (0..choices).map(|k| (nearest + k * count / choices) % count).collect()
 }
 
 /// The CPU function.

@@ -20,7 +20,7 @@
 //! 2. for each triangle that its view-samples lie on, the casters that its plane lets through (`own`); where the light is on both sides of
 //!    that plane, each side is counted apart;
 //! 3. casters that have one facing for the whole part are joined: edges between them are dropped, and D of them follows from one view-sample
-//!    to the next by the borders that are left (`borders`);
+//!    to the next by the borders that are left (`borders`, `ask`);
 //! 4. for each view-sample, the borders and the other casters near the light's cone (`meet`): one caster that hides all of the light
 //!    ends the work;
 //! 5. D is known at the light sample nearest the light's middle, and each edge with a jump adds it to the light samples behind the
@@ -29,15 +29,16 @@
 //! A caster that may reach as far as the light is tested alone, as in `half_planes`. A light sample that rounding cannot tell from a
 //! border is decided by the predicate; where the chosen light sample is one of those another is chosen.
 //!
-//! What was found on two threads of an AVX-512 machine, bunny and knots at 512x512:
+//! Why so, with figures of two threads of an AVX-512 machine, bunny and knots at 512x512:
 //! - the planes of a small caster's edges nearly all cut the light's ball, however far off it lies: one plane that touches the cone beside it
-//!   took three quarters of the edges away;
-//! - where the own plane cuts the light, testing alone what it lets through on one side cost more than counting each side apart;
+//!   leaves a quarter of the edges;
+//! - where the own plane cuts the light, to test alone what it lets through on one side costs more than to count each side apart;
 //! - parts of 32 view-samples in place of whole cells leave a twentieth of the casters that have no facing for all;
-//! - sheets end the work on a quarter of the view-samples that edges crossed.
+//! - sheets end the work on a quarter of the view-samples that edges would cross.
 //!
 //! Departs from the papers: any topology, exact, and a step of one light sample at a time in place of spans.
 
+mod ask;
 mod borders;
 mod cell;
 mod count;
@@ -82,17 +83,23 @@ pub static PASS: Pass = Pass {
     ],
     params: &[],
     counters: &[
-        info("gathered", "casters in the shafts of cells, once a cell"),
-        info("borders", "edges where joined casters end, once a cell"),
-        info("recounted", "view-samples for which joined casters were counted one by one"),
+        info("gathered", "casters in the shafts of parts of cells, once a part"),
+        info("borders", "edges where joined casters end, once a part"),
+        info(
+            "recounted",
+            "(row, chosen light sample) pairs for which joined casters were counted one by one; row as below",
+        ),
         info(
             "near",
-            "(view-sample, caster) pairs, not of joined casters, in which the caster may hide a part of the light",
+            "(row, caster) pairs, not of joined casters, in which the caster may hide a part of the light; row as below",
         ),
-        info("crossing", "(view-sample, edge) pairs whose jump was added"),
-        info("whole_rows", "view-samples all of whose light samples were decided at once"),
-        info("counted_rows", "view-samples that edges crossed"),
-        info("left_rows", "view-samples left to single tests because no light sample could be counted at"),
+        info("crossing", "(row, edge) pairs whose jump was added; row as below"),
+        info(
+            "whole_rows",
+            "rows all of whose light samples were decided at once; a row is a view-sample, or where its own plane cuts the light its light samples of one side",
+        ),
+        info("counted_rows", "rows, as above, that edges crossed"),
+        info("left_rows", "rows, as above, left to single tests because no light sample could be counted at"),
         info("single", "(view-sample, caster) pairs tested alone"),
         info(
             "exact",

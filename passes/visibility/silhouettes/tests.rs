@@ -283,3 +283,99 @@ fn grids_under_lights_on_a_grid_agree() {
     let samples = (0..49).map(|k| [(k % 7) as f32 * 0.5 + 0.5, 2.0, (k / 7) as f32 * 0.5 + 0.5]).collect();
     agrees("grid", &SoftCase { samples, case });
 }
+
+#[test]
+fn many_equal_triangles_agree() {
+    // Of one facing, of both, and both by turns: none, all and all of their edges balance.
+    let card = |at: f32| [[-0.4, at, -0.4], [0.5, at, -0.3], [-0.3, at, 0.5]];
+    for (what, is_turned) in [
+        ("one facing", (|_| false) as fn(usize) -> bool),
+        ("half are turned", |at| at < 2500),
+        ("every other is turned", |at| at % 2 == 0),
+        ("all but one balance", |at| at < 2501),
+    ] {
+        let turn = |at: usize| if is_turned(at) { [0, 2, 1] } else { [0, 1, 2] };
+        let mut triangles: Vec<Corners> = (0..5000).map(|at| turn(at).map(|corner| card(0.0)[corner])).collect();
+        triangles.push(card(0.5));
+        let case = scene(triangles, 24, 25, [0.1, 4.0, 0.2], 1, 11);
+        let counts = agrees(what, &SoftCase { samples: lamp(6, case.light, 0.5, 11), case });
+        assert!(counts[4] == 0, "{what}: {counts:?}");
+    }
+}
+
+#[test]
+fn equal_triangles_that_balance_are_joined() {
+    // A ball of which every triangle is there five times, turned the other way twice.
+    let ball = ball(16, 24, [0.0; 3], 0.6);
+    let copies = |[a, b, c]: Corners| [[a, b, c], [a, c, b], [a, b, c], [b, a, c], [a, b, c]];
+    let triangles: Vec<Corners> = ball.into_iter().flat_map(copies).collect();
+    let light = [0.4, 4.0, 0.2];
+    let case = scene(triangles, 120, 5, light, 4, 2);
+    let counts = agrees("copies", &SoftCase { samples: lamp(24, light, 0.4, 2), case });
+    assert!(counts[2] > 0, "borders: {counts:?}");
+}
+
+#[test]
+fn what_is_no_number_agrees() {
+    let light = [0.4, 4.0, 0.2];
+    let [far, none] = [f32::INFINITY, f32::NAN];
+    let strange = [[none; 3], [far; 3], [0.1, none, 0.2], [-far, 0.3, 0.1], [3e38, -3e38, 3e38]];
+    let clean = || scene(ball(10, 12, [0.0; 3], 0.6), 90, 3, light, 2, 4);
+    // Casters with one strange corner and with three.
+    let mut case = clean();
+    for (at, strange) in strange.into_iter().enumerate() {
+        case.triangles[7 * at][at % 3] = strange;
+        case.triangles[7 * at + 100] = [strange; 3];
+    }
+    let seen = agrees("strange casters", &SoftCase { samples: lamp(40, light, 0.4, 4), case });
+    assert!(seen[1] > 10, "{seen:?}");
+    // View-samples, among others in one cell and in none, on a triangle and on none.
+    let mut case = SoftCase { samples: lamp(40, light, 0.4, 4), case: clean() };
+    let expected = case.mask();
+    let rows: Vec<usize> = (0..strange.len()).map(|at| 17 * at + 3).collect();
+    for (row, strange) in rows.iter().zip(strange) {
+        case.case.position[*row] = strange;
+    }
+    case.case.triangle[rows[0]] = u32::MAX;
+    for level in [Level::new(), Level::baseline()] {
+        let (found, _) = find(&case, level, |_| {});
+        let differing = (0..90).filter(|row| found[2 * row..2 * row + 2] != expected[2 * row..2 * row + 2]);
+        assert!(differing.clone().all(|row| rows.contains(&row)), "{:?}", differing.collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn huge_tiny_and_far_off_scenes_agree() {
+    let mut partial = 0;
+    for (what, scale, shift) in [
+        ("huge", 1e38, 0.0),
+        ("large", 1e18, 0.0),
+        ("tiny", 1e-38, 0.0),
+        ("subnormal", 1e-42, 0.0),
+        ("far off", 1.0, 1e6),
+        ("mixed", 1e25, 1.0),
+    ] {
+        let place = |p: [f32; 3]| p.map(|x| 0.7 * x * scale + shift);
+        let mut case = scene(ball(10, 12, [0.0; 3], 0.6), 90, 3, [0.4, 3.0, 0.2], 2, 4);
+        let samples: Vec<_> = lamp(40, case.light, 0.4, 4).into_iter().map(place).collect();
+        case.triangles.iter_mut().for_each(|corners| *corners = corners.map(place));
+        case.position.iter_mut().for_each(|position| *position = place(*position));
+        case.light = place(case.light);
+        case.look(false, false);
+        let case = SoftCase { samples, case };
+        agrees(what, &case);
+        partial += case.mask().iter().filter(|word| **word != 0 && **word != u32::MAX).count();
+    }
+    assert!(partial > 60, "{partial} words are penumbra");
+}
+
+#[test]
+fn two_light_samples_are_both_chosen() {
+    for seed in 0..12 {
+        let case = soft(9000 + seed, 30, 60, 2);
+        assert_eq!(mask(&case, 1).0, case.mask(), "seed {seed}");
+        let mut choices = super::cpu::choices(&LightBox::clustered(&case.samples));
+        choices.sort_unstable();
+        assert_eq!(choices, [0, 1]);
+    }
+}

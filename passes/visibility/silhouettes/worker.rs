@@ -1,7 +1,8 @@
 //! A cell, view-sample by view-sample.
 
 use super::LANES;
-use super::borders::{Borders, Joined};
+use super::ask::Joined;
+use super::borders::Borders;
 use super::cell::Cell;
 use super::count::Counters;
 use super::edges::Edges;
@@ -20,21 +21,22 @@ const PART: usize = 32;
 /// What was counted.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counts {
-    /// Casters gathered, by cell.
+    /// Casters gathered, by part of a cell.
     pub gathered: u64,
-    /// Borders of joined casters, by cell.
+    /// Borders of joined casters, by part of a cell.
     pub borders: u64,
-    /// (view-sample, kind of light sample) for which joined casters were counted one by one.
+    /// (row, chosen light sample) for which joined casters were counted one by one. A row is a view-sample with one kind of light
+    /// sample, of which there are several where its own plane cuts the light.
     pub recounted: u64,
-    /// Those of them that may hide a part of the light.
+    /// (row, caster), not of joined casters, in which the caster may hide a part of the light.
     pub near: u64,
-    /// (view-sample, edge) whose jump was added.
+    /// (row, edge) whose jump was added.
     pub crossing: u64,
-    /// View-samples decided without an edge.
+    /// Rows decided without an edge.
     pub whole: u64,
-    /// View-samples decided by counting.
+    /// Rows decided by counting.
     pub counted: u64,
-    /// View-samples left to single tests.
+    /// Rows left to single tests.
     pub left: u64,
     /// (view-sample, caster) tested singly.
     pub single: u64,
@@ -206,8 +208,16 @@ impl<'a> Worker<'a> {
             }
         }
         for at in 0..self.cell.singles.len() {
+            if self.is_full() {
+                return;
+            }
             self.single(simd, row, run, self.cell.singles[at]);
         }
+    }
+
+    /// Whether every light sample is hidden.
+    fn is_full(&self) -> bool {
+        self.mask.iter().enumerate().all(|(word, mask)| self.soft.light.used(word) & !mask == 0)
     }
 
     /// Fills the mask of `row` for the light samples of `kind`.
@@ -255,6 +265,9 @@ impl<'a> Worker<'a> {
         }
         self.counts.left += 1;
         for at in 0..self.cell.slots.len() {
+            if self.is_full() {
+                return;
+            }
             if self.runs[run].live(kind)[at / LANES] >> (at % LANES) & 1 == 1 {
                 self.single(simd, row, run, self.cell.slots[at].triangle);
             }
