@@ -50,3 +50,38 @@ fn a_plane_that_does_not_cut_the_light_has_it_on_one_side() {
         assert_eq!(whole, expected, "{y}");
     }
 }
+
+/// A ball of light samples around (0, 4, 0), and casters at random places around its cone from the origin.
+#[test]
+fn a_caster_beside_the_light_hides_nothing_and_is_found_though_its_lines_cut_the_light() {
+    let mut state = 7u32;
+    let mut next = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as f32 / (1 << 23) as f32 - 1.0
+    };
+    let samples: Vec<[f32; 3]> = std::iter::repeat_with(|| [next(), next(), next()])
+        .filter(|[x, y, z]| x * x + y * y + z * z <= 1.0)
+        .map(|[x, y, z]| [x, 4.0 + y, z])
+        .take(300)
+        .collect();
+    let light = LightBox::new(&samples);
+    let (mut beside, mut blocking) = (0, 0);
+    for _ in 0..2000 {
+        let middle = [next(), 2.0 + next(), next()];
+        let caster = [[(); 3]; 3].map(|corner| corner.map(|()| 0.3 * next()));
+        let caster = caster.map(|corner| [0, 1, 2].map(|k| middle[k] + corner[k]));
+        let corners = caster.map(|corner| minus(corner, [0.0; 3]));
+        let is_blocking = samples.iter().any(|sample| predicate::blocks([0.0; 3], None, &caster, *sample));
+        let is_beside = is_beside(&corners, minus(light.middle, [0.0; 3]), light.radius);
+        assert!(!(is_beside && is_blocking), "{caster:?}");
+        // What the three lines alone would have left open.
+        let cuts = (0..3).all(|k| {
+            let line = minus(caster[(k + 1) % 3], caster[k]);
+            let normal = cross(corners[k], line);
+            dot(normal, minus(light.middle, [0.0; 3])).abs() <= light.spread(normal)
+        });
+        beside += usize::from(is_beside && cuts);
+        blocking += usize::from(is_blocking);
+    }
+    assert!(beside > 50 && blocking > 200, "{beside} beside, {blocking} blocking");
+}
