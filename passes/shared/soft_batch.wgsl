@@ -79,68 +79,21 @@ fn settle(used: Bits, batch: ptr<function, Batch>, hidden: ptr<function, Bits>, 
     *batch = empty_batch();
 }
 
-// View-samples in list order, so that neighbours walk the same casters.
-@compute @workgroup_size(64)
-fn soft_join(@builtin(global_invocation_id) id: vec3<u32>) {
-    let place = linear_index(id);
-    if place >= list_offset[numbers.cells] {
-        return;
-    }
-    let light = the_light();
-    let sample = list_entries[place];
-    let entries = casters_of(sample);
-    if entries.y - entries.x > OWN_CASTERS {
-        push(LONG, sample);
-        return;
-    }
-    let receiver = receiver_of(place_of(sample), own_triangle[sample], light);
+fn walk(all: Course, sample: u32, receiver: Receiver, light: Light) -> Outcome {
     let used = used_bits();
+    var course = all;
     var hidden = NO_BITS;
     var doubts: Doubts;
     var batch = empty_batch();
-    var entry = entries.x;
-    while entry < entries.y && is_any(without(used, hidden)) {
-        while entry < entries.y && is_any(without(used, hidden)) && doubts.count <= MOST_DOUBTS {
-            while entry < entries.y && batch.count < BATCH && is_any(without(used, hidden)) {
-                hidden = choose(hidden, used, take(meet(caster_entries[entry], receiver, light), light, &batch));
-                entry++;
+    while course.next < course.end && is_any(without(used, hidden)) {
+        while course.next < course.end && is_any(without(used, hidden)) && doubts.count <= MOST_DOUBTS {
+            while course.next < course.end && batch.count < BATCH && is_any(without(used, hidden)) {
+                hidden = choose(hidden, used, take(meet(caster_at(course), receiver, light), light, &batch));
+                course.next += course.step;
             }
             settle(used, &batch, &hidden, &doubts);
         }
         queue_doubts(&doubts, sample);
     }
-    hide(sample, hidden);
-    if doubts.is_open {
-        push(DOUBTS, sample);
-    }
-}
-
-// `shares` workgroups for each view-sample of the first queue.
-@compute @workgroup_size(64)
-fn soft_long(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
-    let place = group.x + group.y * MAX_GROUPS;
-    if place >= atomicLoad(&queued[LONG]) {
-        return;
-    }
-    let sample = atomicLoad(&queue[place]) & ~IN_DOUBTS;
-    let light = the_light();
-    let entries = casters_of(sample);
-    let receiver = receiver_of(place_of(sample), own_triangle[sample], light);
-    let used = used_bits();
-    var hidden = NO_BITS;
-    var doubts: Doubts;
-    var batch = empty_batch();
-    var entry = entries.x + group.z * GROUP + local;
-    while entry < entries.y && is_any(without(used, hidden)) {
-        while entry < entries.y && batch.count < BATCH && is_any(without(used, hidden)) {
-            hidden = choose(hidden, used, take(meet(caster_at(sample, entry), receiver, light), light, &batch));
-            entry += GROUP * numbers.shares;
-        }
-        settle(used, &batch, &hidden, &doubts);
-        queue_doubts(&doubts, sample);
-    }
-    hide(sample, hidden);
-    if doubts.is_open && (atomicOr(&queue[place], IN_DOUBTS) & IN_DOUBTS) == 0u {
-        push(LONG_DOUBTS, sample);
-    }
+    return Outcome(hidden, doubts.is_open);
 }

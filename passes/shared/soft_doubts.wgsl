@@ -84,9 +84,10 @@ fn decide_all(sample: u32, first: u32, entry_step: u32) {
     let light = the_light();
     let receiver = receiver_of(place_of(sample), own_triangle[sample], light);
     let entries = casters_of(sample);
+    var course = Course(entries.x + first, entries.y, entry_step, cell[sample] != NO_CELL);
     var hidden = hidden_from(sample);
-    for (var entry = entries.x + first; entry < entries.y; entry += entry_step) {
-        hidden = either(hidden, decide(caster_at(sample, entry), receiver, light, hidden));
+    for (; course.next < course.end; course.next += course.step) {
+        hidden = either(hidden, decide(caster_at(course), receiver, light, hidden));
     }
     hide(sample, hidden);
 }

@@ -1,5 +1,6 @@
 // View-samples against the casters of their cells, one block of 256 light samples (eight mask words) a dispatch. Joined before
-// soft_pair.wgsl; soft_each.wgsl or soft_batch.wgsl has the loop. One invocation takes a view-sample; where a cell lists more casters than the loop
+// soft_pair.wgsl; soft_each.wgsl or soft_batch.wgsl
+// has the walk. One invocation takes a view-sample; where a cell lists more casters than the loop
 // limit allows, workgroups share them out. What f32 leaves in doubt is queued.
 //
 // Software drivers run every branch, and read memory lane by lane: so casters come in three vectors, and the loop looks for casters that cut
@@ -187,11 +188,23 @@ fn casters_of(sample: u32) -> vec2<u32> {
     return min(vec2<u32>(caster_offset[at], caster_offset[at + 1u]), vec2<u32>(arrayLength(&caster_entries)));
 }
 
-fn caster_at(sample: u32, entry: u32) -> u32 {
-    if cell[sample] == NO_CELL {
-        return entry;
-    }
-    return caster_entries[entry];
+// Casters still to be met: every `step`th entry from `next` on, before `end`.
+struct Course {
+    next: u32,
+    end: u32,
+    step: u32,
+    // Entries of a list; or triangles.
+    is_listed: bool,
+}
+
+fn caster_at(course: Course) -> u32 {
+    return select(course.next, caster_entries[course.next], course.is_listed);
+}
+
+// What the casters of a course hide of the block; whether some are in doubt that found no room.
+struct Outcome {
+    hidden: Bits,
+    is_open: bool,
 }
 
 // The bits of the block that stand for a light sample.
@@ -251,5 +264,47 @@ fn hide(sample: u32, hidden: Bits) {
         if bits != 0u {
             atomicOr(&mask[sample * numbers.words + 8u * numbers.block + word], bits);
         }
+    }
+}
+
+// View-samples in list order, so that neighbours walk the same casters.
+@compute @workgroup_size(64)
+fn soft_join(@builtin(global_invocation_id) id: vec3<u32>) {
+    let place = linear_index(id);
+    if place >= list_offset[numbers.cells] {
+        return;
+    }
+    let light = the_light();
+    let sample = list_entries[place];
+    let entries = casters_of(sample);
+    if entries.y - entries.x > OWN_CASTERS {
+        push(LONG, sample);
+        return;
+    }
+    let receiver = receiver_of(place_of(sample), own_triangle[sample], light);
+    let outcome = walk(Course(entries.x, entries.y, 1u, true), sample, receiver, light);
+    hide(sample, outcome.hidden);
+    if outcome.is_open {
+        push(DOUBTS, sample);
+    }
+}
+
+// `shares` workgroups for each view-sample of the first queue.
+@compute @workgroup_size(64)
+fn soft_long(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let place = group.x + group.y * MAX_GROUPS;
+    if place >= atomicLoad(&queued[LONG]) {
+        return;
+    }
+    let sample = atomicLoad(&queue[place]) & ~IN_DOUBTS;
+    let light = the_light();
+    let entries = casters_of(sample);
+    let receiver = receiver_of(place_of(sample), own_triangle[sample], light);
+    let first = entries.x + group.z * GROUP + local;
+    let course = Course(first, entries.y, GROUP * numbers.shares, cell[sample] != NO_CELL);
+    let outcome = walk(course, sample, receiver, light);
+    hide(sample, outcome.hidden);
+    if outcome.is_open && (atomicOr(&queue[place], IN_DOUBTS) & IN_DOUBTS) == 0u {
+        push(LONG_DOUBTS, sample);
     }
 }
