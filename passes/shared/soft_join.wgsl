@@ -1,7 +1,6 @@
-// View-samples against the casters of their cells, one block of 256 light samples (eight mask words) a dispatch. Joined before
-// soft_pair.wgsl; soft_each.wgsl or soft_batch.wgsl
-// has the walk. One invocation takes a view-sample; where a cell lists more casters than the loop
-// limit allows, workgroups share them out. What f32 leaves in doubt is queued.
+// View-samples against the casters of their cells, one block of 256 light samples (eight mask words) a dispatch. Joined after
+// soft_pair.wgsl; soft_each.wgsl or soft_batch.wgsl has the walk over casters. One invocation takes a view-sample; where a cell lists more
+// casters than the loop limit allows, workgroups share them out. What f32 leaves in doubt is queued.
 //
 // Software drivers run every branch, and read memory lane by lane: so casters come in three vectors, and the loop looks for casters that cut
 // the light before any lane tests its own.
@@ -239,7 +238,7 @@ fn meet(caster: u32, receiver: Receiver, light: Light) -> Met {
     return met;
 }
 
-// Every word of every mask; the first block's kernels follow, which take what is pushed here.
+// Every word of every mask, before the first block.
 @compute @workgroup_size(64)
 fn soft_start(@builtin(global_invocation_id) id: vec3<u32>) {
     let index = linear_index(id);
