@@ -261,6 +261,17 @@ impl Case {
     }
 }
 
+/// A flat square of `side` times `side` cells, two triangles each, in that order.
+pub fn grid(side: usize) -> Vec<Corners> {
+    let at = |x: usize, y: usize| [x as f32, y as f32, 0.0];
+    (0..side * side)
+        .flat_map(|cell| {
+            let (x, y) = (cell % side, cell / side);
+            [[at(x, y), at(x + 1, y), at(x, y + 1)], [at(x + 1, y + 1), at(x, y + 1), at(x + 1, y)]]
+        })
+        .collect()
+}
+
 /// Exclusive prefix sum with the total last.
 pub fn scan(length: &[u32]) -> Vec<u32> {
     let mut total = 0;

@@ -126,6 +126,7 @@ impl Neighbours {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shared::hard_scenes::grid;
 
     #[test]
     fn two_triangles_wound_alike_are_neighbours_and_others_are_not() {
@@ -144,13 +145,7 @@ mod tests {
     #[test]
     fn a_grid_larger_than_the_first_table_is_joined_throughout() {
         let side = 60;
-        let at = |x: usize, y: usize| [x as f32, y as f32, 0.0];
-        let triangles: Vec<Corners> = (0..side * side)
-            .flat_map(|cell| {
-                let (x, y) = (cell % side, cell / side);
-                [[at(x, y), at(x + 1, y), at(x, y + 1)], [at(x + 1, y + 1), at(x, y + 1), at(x + 1, y)]]
-            })
-            .collect();
+        let triangles = grid(side);
         let found = Neighbours::new(&triangles, |_| true);
         assert_eq!(found.of.iter().flatten().filter(|across| **across == NONE).count(), 4 * side);
         for (id, across) in (0u32..).zip(&found.of) {

@@ -49,15 +49,21 @@ pub fn record_soft(cx: &mut GpuCx, join: Join) -> Result<(), Problem> {
         return Ok(());
     }
     let cells = cx.dim("list_offset", 0) - 1;
-    let all = View { entries: Target::Port("list_entries"), total: Target::Port("list_offset"), total_at: cells };
+    let all = View {
+        entries: Target::Port("list_entries"),
+        total: Target::Port("list_offset"),
+        total_at: cells,
+        and_unlisted: true,
+    };
     let room = Room::new(cx);
     if !cx.is_connected("penumbra_state") {
         record_join(cx, join, room, light_sample_count, all, Target::Port("mask"));
         return Ok(());
     }
     // View-samples apart to which the whole light has one answer: the first light sample gives it, in the place of all.
-    let [whole, partial] = ["whole_samples", "partial_samples"].map(|label| {
-        let view = View { entries: cx.scratch(label, sample_count), total: cx.scratch(label, 1), total_at: 0 };
+    let [whole, partial] = [("whole_samples", false), ("partial_samples", true)].map(|(label, and_unlisted)| {
+        let (entries, total) = (cx.scratch(label, sample_count), cx.scratch(label, 1));
+        let view = View { entries, total, total_at: 0, and_unlisted };
         cx.zero(view.total);
         view
     });
@@ -82,6 +88,8 @@ struct View {
     entries: Target,
     total: Target,
     total_at: usize,
+    /// Whether those of no cell are asked too.
+    and_unlisted: bool,
 }
 
 /// Memory of the joins.
@@ -142,7 +150,9 @@ fn record_join(cx: &mut GpuCx, join: Join, room: Room, light_sample_count: usize
         if block == 0 {
             cx.dispatch("soft_start", join.pieces, "soft_start", bind.clone(), sample_count * words, GROUP);
         }
-        cx.dispatch("soft_unlisted", join.pieces, "soft_unlisted", bind.clone(), sample_count, GROUP);
+        if view.and_unlisted {
+            cx.dispatch("soft_unlisted", join.pieces, "soft_unlisted", bind.clone(), sample_count, GROUP);
+        }
         cx.dispatch("soft_join", join.pieces, "soft_join", bind.clone(), sample_count, GROUP);
         let long = Queue { queued, word: 0, items: 1, groups: long };
         record_share(cx, "soft_long", join.pieces, "soft_long", bind.clone(), long);

@@ -59,6 +59,7 @@ impl Edges {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shared::hard_scenes::grid;
 
     #[test]
     fn a_shared_edge_has_one_number_and_a_direction_for_each_side() {
@@ -74,13 +75,7 @@ mod tests {
     #[test]
     fn a_grid_has_as_many_edges_as_it_should() {
         let side = 60;
-        let at = |x: usize, y: usize| [x as f32, y as f32, 0.0];
-        let triangles: Vec<Corners> = (0..side * side)
-            .flat_map(|cell| {
-                let (x, y) = (cell % side, cell / side);
-                [[at(x, y), at(x + 1, y), at(x, y + 1)], [at(x + 1, y + 1), at(x, y + 1), at(x + 1, y)]]
-            })
-            .collect();
+        let triangles = grid(side);
         let edges = Edges::new(&triangles, |_| true);
         assert_eq!(edges.ends.len(), 3 * side * side + 2 * side);
         let mut walks = vec![0; edges.ends.len()];
